@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slam/jsonl.hpp"
+
+namespace slamscope::slam {
+
+/// Turns the lines of one run into snapshots, one by one, and holds the run to its order: time
+/// never goes back; ids keep their order; features come with `initial`, `initialise` or `step`
+/// and go with `remove` or `step` only. What breaks that is unreadable (std::runtime_error,
+/// "source:line: field: what was expected, what was found") and leaves the state as it was.
+/// The header may be missing: the first line is then a record.
+class RunDecoder {
+ public:
+  /// `source` names the run in messages.
+  explicit RunDecoder(std::string source);
+
+  /// The record in this line, or nullptr for the header and for blank lines.
+  [[nodiscard]] SnapshotPtr decode(std::string_view line);
+
+  [[nodiscard]] const RunHeader& header() const { return header_; }
+  [[nodiscard]] std::uint64_t lines() const { return lines_; }      ///< seen so far
+  [[nodiscard]] std::uint64_t records() const { return records_; }  ///< read so far
+  /// Pairs of neighbouring `step` (or `predict`) records with the same time: readable, but odd.
+  [[nodiscard]] std::uint64_t equalStamps() const { return equal_stamps_; }
+  /// A decoder for the same source whose line numbers go on from here: a second run in one stream.
+  [[nodiscard]] RunDecoder restarted() &&;
+
+ private:
+  void checkOrder(const Snapshot& next) const;
+
+  std::string source_;
+  LineParser parser_;
+  RunHeader header_;
+  SnapshotPtr last_;
+  std::uint64_t lines_ = 0;
+  std::uint64_t first_line_ = 0;  ///< lines before this run began
+  std::uint64_t records_ = 0;
+  std::uint64_t equal_stamps_ = 0;
+};
+
+}  // namespace slamscope::slam
