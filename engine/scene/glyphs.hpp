@@ -17,7 +17,7 @@ struct Rgba {
 
 /// The set centre + axes · unit ball. Columns of `axes` are the semi-axis vectors.
 struct Ellipsoid {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< m
   Rgba colour;
 };

@@ -23,9 +23,9 @@ struct LabelRequest {
 };
 
 struct PlacementOptions {
-  double gap_px = 6.0;  ///< from the anchor to the nearest edge of the text
-  int rings = 3;        ///< distances tried: gap, gap + height, gap + 2 height …
-  PixelBox picture;     ///< labels stay inside; empty: no bound
+  double gap_px = 6.0;    ///< from the anchor to the nearest edge of the text
+  int rings = 3;          ///< distances tried: gap, gap + height, gap + 2 height …
+  PixelBox picture = {};  ///< labels stay inside; empty: no bound
 };
 
 /// Offsets from anchor to text centre such that no label covers another nor an obstacle; greedy, in

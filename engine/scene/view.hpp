@@ -11,7 +11,7 @@ namespace slamscope::engine {
 
 /// Pinhole camera in OpenCV's convention: integer pixel coordinates are pixel centres.
 struct Pinhole {
-  int width = 0, height = 0;  ///< px
+  int width = 0, height = 0;                      ///< px
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< px
   double skew = 0.0;                              ///< px
 };
