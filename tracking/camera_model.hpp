@@ -46,6 +46,7 @@ class CameraModel {
   std::vector<double> D_;  // padded: 8 coefficients, or 4 for equidistant
   bool undistorted_ = false;
   double max_angle_ = 0;
+  double max_radius_squared_ = 0;  // tan² of it, of x/z, y/z
 };
 
 }  // namespace slamscope::tracking
