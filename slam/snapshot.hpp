@@ -75,7 +75,7 @@ struct Snapshot {
   std::vector<Eigen::Vector2d> features;  ///< m, frame of the map
   std::vector<std::string> extra;         ///< names of states appended after the features
   PackedCovariance covariance;            ///< m², m·rad, rad²; size 3 + 2n + extra
-  bool diagonal_only = false;  ///< off-diagonal entries were not logged (level L0)
+  bool diagonal_only = false;             ///< off-diagonal entries were not logged (level L0)
   /// Worst |P − Pᵀ| of the full matrix that was read; absent where only a triangle was written.
   std::optional<double> asymmetry;
   std::vector<FeatureId> observed;  ///< ids observed in this event

@@ -25,7 +25,9 @@ class EventSet {
 
  private:
   constexpr explicit EventSet(std::uint32_t bits) : bits_(bits) {}
-  static constexpr std::uint32_t bit(Event event) { return 1U << static_cast<std::uint32_t>(event); }
+  static constexpr std::uint32_t bit(Event event) {
+    return 1U << static_cast<std::uint32_t>(event);
+  }
   std::uint32_t bits_ = 0;
 };
 
@@ -43,8 +45,9 @@ class Subscription {
 
 /// The paper's Observer pattern (section 3.1): every source of snapshots – filter, replay, live
 /// link – is a Subject; viewer, recorder, scorer and audit observe. Observers are called on the
-/// publishing thread, in the order in which they subscribed. Not thread-safe: subscribe, publish and
-/// drop subscriptions on one thread (an observer may drop subscriptions while it is being called).
+/// publishing thread, in the order in which they subscribed. Not thread-safe: subscribe, publish
+/// and drop subscriptions on one thread (an observer may drop subscriptions while it is being
+/// called).
 class Subject {
  public:
   using Callback = std::function<void(const SnapshotPtr&)>;
