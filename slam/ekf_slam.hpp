@@ -51,6 +51,8 @@ struct EkfCounters {
 /// Times must not go back and numbers must be finite, else std::invalid_argument.
 class EkfSlam : public Subject {
  public:
+  using Subject::observe;  // how others listen; below, `observe` is how the filter senses
+
   explicit EkfSlam(const EkfOptions& options);
   /// With other equations (a planted fault); their sensor must be the options' sensor.
   EkfSlam(const EkfOptions& options, std::unique_ptr<EkfEquations> equations);
@@ -87,7 +89,9 @@ class EkfSlam : public Subject {
   [[nodiscard]] const EkfState& state() const { return state_; }
   [[nodiscard]] const EkfOptions& options() const { return options_; }
   [[nodiscard]] const EkfCounters& counters() const { return counters_; }
-  [[nodiscard]] std::chrono::nanoseconds time() const { return time_; }
+  [[nodiscard]] std::chrono::nanoseconds time() const {
+    return time_.value_or(std::chrono::nanoseconds{});
+  }
   [[nodiscard]] bool knows(FeatureId id) const { return state_.rowOf(id).has_value(); }
   /// The current posterior as a snapshot, without an event of its own (event `step`).
   [[nodiscard]] Snapshot snapshot() const { return makeSnapshot(Event::step); }
@@ -105,7 +109,7 @@ class EkfSlam : public Subject {
   EkfState state_;
   EkfCounters counters_;
   std::optional<Truth> truth_;
-  std::chrono::nanoseconds time_{std::chrono::nanoseconds::min()};
+  std::optional<std::chrono::nanoseconds> time_;
   std::uint64_t sequence_ = 0;
 };
 

@@ -17,7 +17,7 @@ struct FaultDescription {
 };
 
 /// What a fault may need to know. `features`: whose covariance `paper` spoils, by id; empty for its
-/// default, features 2 and 8 (one in each of the first two clusters of the paper's map).
+/// default, features 2, 8 and 14: one in each cluster of the paper's map.
 struct FaultOptions {
   Sensor sensor = Sensor::range_bearing;
   std::vector<FeatureId> features;

@@ -33,7 +33,7 @@ struct Motion {
 
 /// f_v of equation (1): `pose` (x, y, θ) moved by a body-frame increment; θ wrapped. Jacobians by
 /// the pose (F_x) and by the increment (G_u) on request.
-[[nodiscard]] Eigen::Vector3d movePose(const Eigen::Vector3d& pose,
+Eigen::Vector3d movePose(const Eigen::Vector3d& pose,
                                        const Eigen::Vector3d& increment,
                                        Eigen::Matrix3d* F_x = nullptr,
                                        Eigen::Matrix3d* G_u = nullptr);
@@ -46,14 +46,14 @@ struct Motion {
 /// relative_position: (m, m) in the body frame. Jacobians by pose (H_v) and feature (H_f) on
 /// request. At zero distance the bearing and its Jacobian do not exist (Jacobian not finite).
 /// Throws std::invalid_argument for Sensor::unknown.
-[[nodiscard]] Eigen::Vector2d observeFeature(Sensor sensor, const Eigen::Vector3d& pose,
+Eigen::Vector2d observeFeature(Sensor sensor, const Eigen::Vector3d& pose,
                                              const Eigen::Vector2d& feature,
                                              Matrix23d* H_v = nullptr,
                                              Eigen::Matrix2d* H_f = nullptr);
 
 /// Inverse of h_i: where the feature stands that reads `z` from `pose`. Jacobians by pose (G_v) and
 /// by reading (G_z) on request. Throws std::invalid_argument for Sensor::unknown.
-[[nodiscard]] Eigen::Vector2d locateFeature(Sensor sensor, const Eigen::Vector3d& pose,
+Eigen::Vector2d locateFeature(Sensor sensor, const Eigen::Vector3d& pose,
                                             const Eigen::Vector2d& z, Matrix23d* G_v = nullptr,
                                             Eigen::Matrix2d* G_z = nullptr);
 

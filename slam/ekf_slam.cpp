@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "slam/ekf_slam.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace slamscope::slam {
+namespace {
+
+/// Quantile of χ² with two degrees of freedom.
+double chiSquare2(double probability) {
+  return -2.0 * std::log1p(-probability);
+}
+
+void requireFinite(const Observation& o) {
+  if (o.z.allFinite() && o.R.allFinite()) return;
+  throw std::invalid_argument("observation of feature " + std::to_string(o.id) +
+                              " is not finite: z = (" + std::to_string(o.z[0]) + ", " +
+                              std::to_string(o.z[1]) + ")");
+}
+
+std::vector<ObservationRecord> recordsOf(const Correction& correction, int size, bool jacobians) {
+  std::vector<ObservationRecord> records;
+  records.reserve(correction.observations.size());
+  Eigen::Index row = 0;
+  for (const LinearisedObservation& o : correction.observations) {
+    records.push_back({o.id, o.z, o.innovation, correction.S.block<2, 2>(row, row), o.R,
+                       jacobians ? o.H.dense(size) : Eigen::MatrixXd()});
+    row += 2;
+  }
+  return records;
+}
+
+}  // namespace
+
+EkfSlam::EkfSlam(const EkfOptions& options)
+    : EkfSlam(options, std::make_unique<EkfEquations>(options.sensor)) {}
+
+EkfSlam::EkfSlam(const EkfOptions& options, std::unique_ptr<EkfEquations> equations)
+    : options_(options), equations_(std::move(equations)) {
+  if (options.sensor == Sensor::unknown || equations_->sensor() != options.sensor) {
+    throw std::invalid_argument("EkfSlam: the sensor is unknown or not the one of its equations");
+  }
+  if (options.gate_probability &&
+      !(*options.gate_probability > 0.0 && *options.gate_probability < 1.0)) {
+    throw std::invalid_argument("EkfSlam: gate probability " +
+                                std::to_string(*options.gate_probability) + " is not in (0, 1)");
+  }
+  if (!options.initial_pose.allFinite() || !options.initial_covariance.allFinite()) {
+    throw std::invalid_argument("EkfSlam: initial pose or covariance is not finite");
+  }
+  state_.x = options.initial_pose;
+  state_.P = options.initial_covariance;
+}
+
+template <typename Fill>
+void EkfSlam::announce(Event event, Fill fill) {
+  if (wants(event)) {
+    auto snapshot = std::make_shared<Snapshot>(makeSnapshot(event));
+    fill(*snapshot);
+    publish(snapshot);
+  }
+  ++sequence_;
+}
+
+void EkfSlam::start(std::chrono::nanoseconds time) {
+  advance(time);
+  announce(Event::initial, [](Snapshot&) {});
+}
+
+void EkfSlam::predict(std::chrono::nanoseconds time, const Motion& motion) {
+  if (!motion.increment.allFinite() || !motion.M.allFinite()) {
+    throw std::invalid_argument("the motion at " + std::to_string(time.count()) +
+                                " ns is not finite");
+  }
+  advance(time);
+  const Eigen::Matrix3d Q = equations_->predict(state_, motion);
+  ++counters_.predictions;
+  announce(Event::predict, [&](Snapshot& snapshot) {
+    snapshot.control = motion.control;
+    snapshot.Q = Q;
+  });
+}
+
+std::vector<FeatureId> EkfSlam::update(std::span<const Observation> observations) {
+  if (options_.update == UpdateMode::batch) return updateOnce(observations);
+  std::vector<FeatureId> used;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    const std::vector<FeatureId> one = updateOnce(observations.subspan(k, 1));
+    used.insert(used.end(), one.begin(), one.end());
+  }
+  return used;
+}
+
+std::vector<FeatureId> EkfSlam::updateOnce(std::span<const Observation> observations) {
+  std::vector<Observation> accepted;
+  for (const Observation& o : observations) {
+    requireFinite(o);
+    if (!knows(o.id)) {
+      throw std::invalid_argument("update with feature " + std::to_string(o.id) +
+                                  ", which is not in the map");
+    }
+    if (passes(o)) accepted.push_back(o);
+  }
+  if (accepted.empty()) return {};
+  const Correction correction = equations_->update(state_, accepted);
+  if (!correction.applied) {
+    counters_.degenerate += accepted.size();
+    return {};
+  }
+  ++counters_.updates;
+  counters_.observed += accepted.size();
+  std::vector<FeatureId> used;
+  for (const Observation& o : accepted) used.push_back(o.id);
+  announce(Event::update, [&](Snapshot& snapshot) {
+    snapshot.observed = used;
+    snapshot.observations = recordsOf(correction, state_.size(), options_.record_jacobians);
+  });
+  return used;
+}
+
+bool EkfSlam::passes(const Observation& observation) {
+  const LinearisedObservation o = equations_->linearise(state_, observation);
+  if (!o.innovation.allFinite() || !o.H.H_v.allFinite() || !o.H.H_f.allFinite()) {
+    ++counters_.degenerate;
+    return false;
+  }
+  if (!options_.gate_probability) return true;
+  const Eigen::Matrix2d S = equations_->innovationCovariance(state_, o);
+  const double squared_mahalanobis = o.innovation.dot(S.ldlt().solve(o.innovation));
+  if (squared_mahalanobis <= chiSquare2(*options_.gate_probability)) return true;
+  ++counters_.gated_out;
+  return false;
+}
+
+void EkfSlam::initialise(const Observation& observation) {
+  requireFinite(observation);
+  if (knows(observation.id)) {
+    throw std::invalid_argument("initialise of feature " + std::to_string(observation.id) +
+                                ", which is in the map already");
+  }
+  equations_->initialise(state_, observation);
+  ++counters_.initialised;
+  announce(Event::initialise, [&](Snapshot& snapshot) { snapshot.observed = {observation.id}; });
+}
+
+void EkfSlam::remove(FeatureId id) {
+  const std::optional<int> row = state_.rowOf(id);
+  if (!row) {
+    throw std::invalid_argument("remove of feature " + std::to_string(id) +
+                                ", which is not in the map");
+  }
+  const int size = state_.size();
+  const int below = size - *row - 2;
+  state_.ids.erase(state_.ids.begin() + (*row - 3) / 2);
+  state_.x.segment(*row, below) = state_.x.tail(below).eval();
+  state_.x.conservativeResize(size - 2);
+  state_.P.middleRows(*row, below) = state_.P.bottomRows(below).eval();
+  state_.P.middleCols(*row, below) = state_.P.rightCols(below).eval();
+  state_.P.conservativeResize(size - 2, size - 2);
+  ++counters_.removed;
+  announce(Event::remove, [](Snapshot&) {});
+}
+
+void EkfSlam::observe(std::chrono::nanoseconds time, std::span<const Observation> observations) {
+  advance(time);
+  std::vector<Observation> known;
+  std::vector<Observation> fresh;
+  for (const Observation& o : equations_->perceive(state_, observations)) {
+    (knows(o.id) ? known : fresh).push_back(o);
+  }
+  std::vector<FeatureId> observed = update(known);
+  std::vector<Observation> again;  // second readings of features that are born in this very step
+  for (const Observation& o : fresh) {
+    if (knows(o.id)) {
+      again.push_back(o);
+    } else {
+      initialise(o);
+      observed.push_back(o.id);
+    }
+  }
+  update(again);
+  announce(Event::step, [&](Snapshot& snapshot) { snapshot.observed = std::move(observed); });
+}
+
+void EkfSlam::step(std::chrono::nanoseconds time, const Motion& motion,
+                   std::span<const Observation> observations) {
+  predict(time, motion);
+  observe(time, observations);
+}
+
+void EkfSlam::advance(std::chrono::nanoseconds time) {
+  if (time_ && time < *time_) {
+    throw std::invalid_argument("time goes back from " + std::to_string(time_->count()) +
+                                " ns to " + std::to_string(time.count()) + " ns");
+  }
+  time_ = time;
+}
+
+Snapshot EkfSlam::makeSnapshot(Event event) const {
+  Snapshot snapshot;
+  snapshot.time = time();
+  snapshot.sequence = sequence_;
+  snapshot.event = event;
+  snapshot.pose = state_.pose();
+  snapshot.ids = state_.ids;
+  snapshot.features.reserve(state_.ids.size());
+  for (int row = 3; row < state_.size(); row += 2) {
+    snapshot.features.emplace_back(state_.x.segment<2>(row));
+  }
+  snapshot.covariance = PackedCovariance::fromLower(state_.P);
+  snapshot.asymmetry = equations_->asymmetry(state_);
+  snapshot.observed_given = true;
+  snapshot.truth = truth_;
+  return snapshot;
+}
+
+}  // namespace slamscope::slam

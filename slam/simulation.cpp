@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "slam/simulation.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "slam/faults.hpp"
+
+namespace slamscope::slam {
+namespace {
+
+/// Independent sequences from one seed (the finaliser of splitmix64).
+enum class Stream : std::uint64_t { world, odometry, sensor, start };
+
+std::uint64_t streamSeed(std::uint64_t seed, Stream stream) {
+  std::uint64_t z = seed + (static_cast<std::uint64_t>(stream) + 1) * 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31U);
+}
+
+Eigen::Vector2d sensorSigma(const SimulationOptions& options) {
+  const Eigen::Vector2d by_default = options.sensor == Sensor::relative_position
+                                         ? Eigen::Vector2d(0.05, 0.05)
+                                         : Eigen::Vector2d(0.06, 0.04);
+  return options.sensor_sigma.value_or(by_default);
+}
+
+const SimulationOptions& checked(const SimulationOptions& options) {
+  const Eigen::Vector2d sigma = sensorSigma(options);
+  if (!(sigma.minCoeff() > 0.0) || !(options.odometry_sigma.minCoeff() >= 0.0) ||
+      !(options.initial_sigma.minCoeff() >= 0.0) || !(options.sensor_range > 0.0) ||
+      !(options.field_of_view > 0.0)) {
+    throw std::invalid_argument(
+        "a simulation needs sensor σ > 0, odometry σ ≥ 0, initial σ ≥ 0, range > 0, view > 0");
+  }
+  return options;
+}
+
+EkfOptions filterOptions(const SimulationOptions& options) {
+  EkfOptions result;
+  result.sensor = options.sensor;
+  result.update = options.update;
+  result.gate_probability = options.gate_probability;
+  result.record_jacobians = options.record_jacobians;
+  RandomSource random(streamSeed(options.seed, Stream::start));
+  for (int k = 0; k < 3; ++k) result.initial_pose[k] = options.initial_sigma[k] * random.normal();
+  result.initial_covariance = options.initial_sigma.array().square().matrix().asDiagonal();
+  return result;
+}
+
+/// By default one feature in each third of the ids: in each cluster of the paper's map.
+std::unique_ptr<EkfEquations> equations(const SimulationOptions& options) {
+  FaultOptions fault{options.sensor, options.fault_features};
+  if (fault.features.empty()) {
+    for (const double share : {0.1, 0.5, 0.9}) {
+      fault.features.push_back(1 + static_cast<FeatureId>(share * options.features));
+    }
+  }
+  return makeFault(options.fault, fault);
+}
+
+Truth startTruth(const SimulationOptions& options) {
+  World world = makeWorld(options.world, options.features, streamSeed(options.seed, Stream::world));
+  return {Eigen::Vector3d::Zero(), std::move(world.ids), std::move(world.features)};
+}
+
+}  // namespace
+
+Simulation::Simulation(const SimulationOptions& options)
+    : options_(checked(options)),
+      R_(sensorSigma(options).array().square().matrix().asDiagonal()),
+      drive_({options.loops, options.rate, options.speed, options.rest}),
+      truth_(startTruth(options)),
+      odometry_noise_(streamSeed(options.seed, Stream::odometry)),
+      sensor_noise_(streamSeed(options.seed, Stream::sensor)),
+      filter_(filterOptions(options), equations(options)) {}
+
+bool Simulation::step() {
+  if (next_step_ > drive_.stepCount()) return false;
+  truth_.pose = drive_.pose(next_step_);
+  const std::chrono::nanoseconds time = drive_.timeOf(next_step_);
+  if (next_step_ == 0) {
+    filter_.setTruth(truth_);
+    filter_.start(time);
+    filter_.observe(time, readings());
+  } else {
+    const Motion motion = odometry(next_step_ - 1);
+    filter_.setTruth(truth_);
+    filter_.step(time, motion, readings());
+  }
+  ++next_step_;
+  return true;
+}
+
+double Simulation::progress() const {
+  return static_cast<double>(next_step_) / (drive_.stepCount() + 1);
+}
+
+RunHeader Simulation::header() const {
+  RunHeader header;
+  header.sensor = options_.sensor;
+  header.robot = "simulated";
+  header.R = R_;
+  return header;
+}
+
+Motion Simulation::odometry(int step) {
+  const Eigen::Vector2d velocity = drive_.velocity(step);
+  const double duration = 1.0 / options_.rate;
+  // The robot keeps to its loop and the odometry is what errs, so that any number of loops stays in
+  // the camera's view. Wheels that stand still are read exactly.
+  if (velocity.isZero()) return Motion::fromVelocity(0.0, 0.0, duration, Eigen::Matrix2d::Zero());
+  const Eigen::Vector2d& sigma = options_.odometry_sigma;
+  const double forward = velocity[0] + sigma[0] * odometry_noise_.normal();
+  const double turn = velocity[1] + sigma[1] * odometry_noise_.normal();
+  return Motion::fromVelocity(forward, turn, duration,
+                              sigma.array().square().matrix().asDiagonal());
+}
+
+std::vector<Observation> Simulation::readings() {
+  std::vector<Observation> readings;
+  for (std::size_t k = 0; k < truth_.ids.size(); ++k) {
+    if (!inView(truth_.features[k])) continue;
+    Eigen::Vector2d z = observeFeature(options_.sensor, truth_.pose, truth_.features[k]);
+    for (int axis = 0; axis < 2; ++axis) {
+      z[axis] += std::sqrt(R_(axis, axis)) * sensor_noise_.normal();
+    }
+    readings.push_back({truth_.ids[k], z, R_});
+  }
+  return readings;
+}
+
+bool Simulation::inView(const Eigen::Vector2d& feature) const {
+  const Eigen::Vector2d range_bearing = observeFeature(Sensor::range_bearing, truth_.pose, feature);
+  return range_bearing[0] <= options_.sensor_range &&
+         std::abs(range_bearing[1]) <= options_.field_of_view / 2.0;
+}
+
+}  // namespace slamscope::slam
