@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/buffer.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace slamscope::engine::gpu {
+
+Buffer::Buffer(const Core& core, std::size_t bytes, vk::BufferUsageFlags usage, MemoryUse use)
+    : core_(&core), bytes_(std::max<std::size_t>(bytes, 256)), usage_(usage), use_(use) {
+  create();
+}
+
+bool Buffer::reserve(std::size_t bytes) {
+  if (bytes <= bytes_) return false;
+  bytes_ = std::max(bytes, bytes_ + bytes_ / 2);
+  create();
+  return true;
+}
+
+void Buffer::create() {
+  buffer_ = {core_->device(), vk::BufferCreateInfo{.size = bytes_, .usage = usage_}};
+  memory_ = allocate(*core_, buffer_.getMemoryRequirements(), use_);
+  buffer_.bindMemory(*memory_, 0);
+  mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+}
+
+}  // namespace slamscope::engine::gpu

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/core.hpp"
+
+#include <utility>
+
+#include "engine/gpu/device.hpp"
+#include "engine/gpu/instance.hpp"
+
+namespace slamscope::engine::gpu {
+
+Core::Core(const GpuOptions& options)
+    : loader_(openLoader()),
+      instance_(makeInstance(loader_, options.instance_extensions,
+                             options.validation ? &log_ : nullptr)) {
+  if (options.validation) messenger_ = {instance_, messengerInfo(log_)};
+  Candidate chosen = chooseDevice(enumerateDevices(instance_), options.device);
+  physical_ = std::move(chosen.physical);
+  info_ = std::move(chosen.info);
+  family_ = drawingFamily(physical_);
+  memory_ = physical_.getMemoryProperties();
+  limits_ = physical_.getProperties().limits;
+  device_ = makeDevice(physical_, family_, !options.instance_extensions.empty());
+  queue_ = device_.getQueue(family_, 0);
+}
+
+}  // namespace slamscope::engine::gpu

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/device_info.hpp"
+#include "engine/gpu/gpu.hpp"
+#include "engine/gpu/validation.hpp"
+
+namespace slamscope::engine::gpu {
+
+/// What Gpu keeps from those who need no Vulkan header. Members are destroyed from the last to the
+/// first, as Vulkan wants it.
+class Core {
+ public:
+  explicit Core(const GpuOptions& options);
+
+  [[nodiscard]] const DeviceInfo& info() const { return info_; }
+  [[nodiscard]] const MessageLog& log() const { return log_; }
+  [[nodiscard]] const vk::raii::Instance& instance() const { return instance_; }
+  [[nodiscard]] const vk::raii::PhysicalDevice& physical() const { return physical_; }
+  [[nodiscard]] const vk::raii::Device& device() const { return device_; }
+  /// The one queue: draws, computes, copies; presents too on every driver we know (ask
+  /// physical().getSurfaceSupportKHR(family(), surface)).
+  [[nodiscard]] const vk::raii::Queue& queue() const { return queue_; }
+  [[nodiscard]] std::uint32_t family() const { return family_; }
+  [[nodiscard]] const vk::PhysicalDeviceMemoryProperties& memory() const { return memory_; }
+  [[nodiscard]] const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+
+ private:
+  MessageLog log_;
+  vk::raii::Context loader_;
+  vk::raii::Instance instance_;
+  vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;
+  vk::raii::PhysicalDevice physical_ = nullptr;
+  DeviceInfo info_;
+  std::uint32_t family_ = 0;
+  vk::PhysicalDeviceMemoryProperties memory_;
+  vk::PhysicalDeviceLimits limits_;
+  vk::raii::Device device_ = nullptr;
+  vk::raii::Queue queue_ = nullptr;
+};
+
+}  // namespace slamscope::engine::gpu
