@@ -69,6 +69,10 @@ struct LabOptions {
 /// All of the above: a lab without posts, the robot at rest in the middle.
 [[nodiscard]] LabOptions defaultLab();
 
+namespace lab {
+struct Motion;
+}
+
 /// A room with a robot in it, rendered on the CPU: rays through OpenCV's lens model, in double,
 /// area sampled. It shares no code with camera_model nor with the engine, so that half a pixel
 /// can't cancel. The sensor is linear. Same options, same frame: to the byte, in any order.
@@ -83,7 +87,7 @@ class Lab final : public FrameSource {
   [[nodiscard]] std::optional<CameraInfo> cameraInfo() const override { return options_.camera; }
   [[nodiscard]] std::optional<std::uint64_t> count() const override;
 
-  /// Frame k, whatever was asked before.
+  /// Frame k, whatever was asked before (one thread at a time).
   [[nodiscard]] Frame frame(std::uint64_t k) const;
   /// Mid-exposure of frame k.
   [[nodiscard]] std::chrono::nanoseconds time(std::uint64_t k) const;
@@ -93,6 +97,7 @@ class Lab final : public FrameSource {
 
  private:
   struct Parts;
+  [[nodiscard]] lab::Motion motion(std::uint64_t k) const;
   LabOptions options_;
   std::unique_ptr<Parts> parts_;
   std::uint64_t next_ = 0;

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/lab_room.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace slamscope::tracking::lab {
+namespace {
+
+// Numbers of parts: every kind has a range of its own.
+constexpr int kFloor = 0, kTape = 1, kTags = 100, kPosts = 10000, kThings = 1000000;
+constexpr double kFootHeight = 0.005;  // m
+
+std::vector<Blocker> blockers(const LabOptions& options) {
+  std::vector<Blocker> result;
+  for (const LabPost& post : options.posts) {
+    const Eigen::Vector3d p =
+        options.T_world_map * Eigen::Vector3d(post.p_map.x(), post.p_map.y(), 0);
+    result.push_back(
+        {.p_world = p.head<2>(), .radius = options.post_radius, .height = options.post_height});
+  }
+  return result;
+}
+
+}  // namespace
+
+Eigen::Array3f albedo(TagFace::Ink ink) {
+  return ink == TagFace::Ink::black ? Eigen::Array3f(26, 25, 25) : Eigen::Array3f(216, 217, 215);
+}
+
+Room::Room(const LabOptions& options)
+    : floor_(options.seed), things_(furniture()), light_(makeLight(options)) {
+  if (!(options.post_radius > 0 && options.post_height > kFootHeight))
+    throw std::invalid_argument("posts need a radius and a height above 5 mm");
+  for (const LabTag& tag : options.tags)
+    tags_.push_back({TagFace(tag.id, tag.size), tag.T_world_tag.inverse()});
+  for (const LabPost& post : options.posts) {
+    const Eigen::Vector3d base =
+        options.T_world_map * Eigen::Vector3d(post.p_map.x(), post.p_map.y(), 0);
+    const double half = options.post_height / 2;
+    posts_.push_back({.shaft = {.centre = {base.x(), base.y(), half},
+                                .radius = options.post_radius,
+                                .half_length = half},
+                      .foot = {.centre = {base.x(), base.y(), kFootHeight / 2},
+                               .radius = 2.2 * options.post_radius,
+                               .half_length = kFootHeight / 2}});
+  }
+}
+
+LightMap Room::makeLight(const LabOptions& options) {
+  std::vector<Blocker> all = blockers(options);
+  Eigen::Vector2d lower(-4.5, -3.5), upper(4.5, 3.5);
+  for (const Blocker& blocker : all) {
+    lower = lower.cwiseMin(blocker.p_world - Eigen::Vector2d::Constant(1));
+    upper = upper.cwiseMax(blocker.p_world + Eigen::Vector2d::Constant(1));
+  }
+  return {lower, upper, all};
+}
+
+std::vector<Room::Thing> Room::furniture() {
+  return {};
+}
+
+Sample Room::trace(const Ray& ray_world) const {
+  Sample nearest;
+  nearest.colour = Eigen::Array3f(178, 176, 172);  // the walls, far away
+  traceFloor(ray_world, nearest);
+  traceTags(ray_world, nearest);
+  tracePosts(ray_world, nearest);
+  traceThings(ray_world, nearest);
+  return nearest;
+}
+
+double Room::distanceToSolids(const Ray& ray_world) const {
+  double t = std::numeric_limits<double>::infinity();
+  for (const Post& post : posts_)
+    t = std::min({t, intersect(ray_world, post.shaft).t, intersect(ray_world, post.foot).t});
+  for (const Thing& thing : things_) t = std::min(t, intersect(ray_world, thing.shape).t);
+  return t;
+}
+
+void Room::traceFloor(const Ray& ray, Sample& nearest) const {
+  if (!(ray.origin.z() > 0 && ray.direction.z() < 0)) return;
+  const double t = -ray.origin.z() / ray.direction.z();
+  const Eigen::Vector2d p = ray.at(t).head<2>();
+  const Floor::Sample floor = floor_.at(p);
+  nearest = {
+      .colour = floor.albedo * tint(light_.at(p)), .part = floor.tape ? kTape : kFloor, .t = t};
+}
+
+void Room::traceTags(const Ray& ray, Sample& nearest) const {
+  for (std::size_t i = 0; i < tags_.size(); ++i) {
+    const TagFace::TagHit hit = tags_[i].face.intersect(tags_[i].T_tag_world * ray);
+    // Paper lies on the floor without thickness: on a tie it is the paper that is seen.
+    if (!hit || hit.t > nearest.t + 1e-6) continue;
+    const Eigen::Vector3d p = ray.at(hit.t);
+    const Eigen::Vector3d normal = tags_[i].T_tag_world.linear().row(2).transpose();
+    const Light light = normal.z() > 0.99 ? light_.at(p.head<2>()) : openLight(p, normal);
+    nearest = {.colour = albedo(hit.ink) * tint(light),
+               .part = kTags + 2 * static_cast<int>(i) + (hit.ink == TagFace::Ink::white ? 1 : 0),
+               .t = hit.t};
+  }
+}
+
+void Room::tracePosts(const Ray& ray, Sample& nearest) const {
+  for (std::size_t i = 0; i < posts_.size(); ++i) {
+    const Hit foot = intersect(ray, posts_[i].foot);
+    const int first = kPosts + 8 * static_cast<int>(i);
+    if (foot.t < nearest.t) {
+      const Light light = openLight(ray.at(foot.t), foot.normal);
+      nearest = {.colour = Eigen::Array3f(52, 50, 48) * tint(light), .part = first, .t = foot.t};
+    }
+    const Hit shaft = intersect(ray, posts_[i].shaft);
+    if (shaft.t >= nearest.t) continue;
+    const Eigen::Vector3d p = ray.at(shaft.t);
+    const double from_top = 2 * posts_[i].shaft.half_length - p.z();
+    const bool cap = shaft.normal.z() > 0.5;
+    const bool band = !cap && from_top > 0.03 && from_top < 0.07;
+    const Eigen::Array3f paint = band  ? Eigen::Array3f(40, 96, 226)
+                                 : cap ? Eigen::Array3f(225, 226, 224)
+                                       : Eigen::Array3f(206, 208, 206);
+    // Less light reaches the foot of a post than its top.
+    const auto low = static_cast<float>(1 - 0.35 * std::exp(-p.z() / 0.04));
+    nearest = {.colour = paint * tint(openLight(p, shaft.normal)) * low,
+               .part = first + (cap    ? 3
+                                : band ? 2
+                                       : 1),
+               .t = shaft.t};
+  }
+}
+
+void Room::traceThings(const Ray& ray, Sample& nearest) const {
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    const Hit hit = intersect(ray, things_[i].shape);
+    if (hit.t >= nearest.t) continue;
+    nearest = {.colour = things_[i].albedo * tint(openLight(ray.at(hit.t), hit.normal)),
+               .part = kThings + 8 * static_cast<int>(i) + (hit.normal.z() > 0.5 ? 0 : 1),
+               .t = hit.t};
+  }
+}
+
+}  // namespace slamscope::tracking::lab

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "tracking/lab.hpp"
+#include "tracking/lab_floor.hpp"
+#include "tracking/lab_light.hpp"
+#include "tracking/lab_shapes.hpp"
+#include "tracking/lab_tag_face.hpp"
+
+namespace slamscope::tracking::lab {
+
+/// What a ray sees.
+struct Sample {
+  Eigen::Array3f colour = Eigen::Array3f::Zero();  ///< blue, green, red, of 255
+  int part = -1;  ///< equal numbers: no edge between; −1: nothing
+  double t = std::numeric_limits<double>::infinity();
+};
+
+/// Printer's ink and paper.
+[[nodiscard]] Eigen::Array3f albedo(TagFace::Ink ink);
+
+/// All that stands still: floor, printed tags, posts, a few things along the walls.
+class Room {
+ public:
+  /// Throws std::invalid_argument for posts or tags that can't be.
+  explicit Room(const LabOptions& options);
+
+  [[nodiscard]] Sample trace(const Ray& ray_world) const;
+  /// Distance along the ray to the first solid that stands on the floor (not the floor itself).
+  [[nodiscard]] double distanceToSolids(const Ray& ray_world) const;
+  [[nodiscard]] const LightMap& light() const { return light_; }
+
+ private:
+  struct Post {
+    Cylinder shaft, foot;
+  };
+  struct Thing {
+    Prism shape;
+    Eigen::Array3f albedo;
+  };
+  struct Tag {
+    TagFace face;
+    Eigen::Isometry3d T_tag_world;
+  };
+  [[nodiscard]] static std::vector<Thing> furniture();
+  [[nodiscard]] static LightMap makeLight(const LabOptions& options);
+
+  void traceFloor(const Ray& ray, Sample& nearest) const;
+  void traceTags(const Ray& ray, Sample& nearest) const;
+  void tracePosts(const Ray& ray, Sample& nearest) const;
+  void traceThings(const Ray& ray, Sample& nearest) const;
+
+  Floor floor_;
+  std::vector<Tag> tags_;
+  std::vector<Post> posts_;
+  std::vector<Thing> things_;
+  LightMap light_;
+};
+
+}  // namespace slamscope::tracking::lab
