@@ -21,15 +21,12 @@ struct Need {
   vk::Bool32* flag;
 };
 
-std::array<Need, 5> needs(FeatureChain& chain) {
+std::array<Need, 4> needs(FeatureChain& chain) {
   return {
       {{"multiview", &chain.get<vk::PhysicalDeviceVulkan11Features>().multiview},
        {"scalarBlockLayout", &chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout},
        {"dynamicRendering", &chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering},
-       {"synchronization2", &chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2},
-       {"shaderSampledImageArrayDynamicIndexing",
-        &chain.get<vk::PhysicalDeviceFeatures2>()
-             .features.shaderSampledImageArrayDynamicIndexing}}};
+       {"synchronization2", &chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2}}};
 }
 
 std::string missing(const vk::raii::PhysicalDevice& physical, std::uint32_t api_version) {

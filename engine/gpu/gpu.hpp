@@ -16,12 +16,12 @@ class Core;  // engine/gpu/core.hpp: what the engine's own files see of it
 struct GpuOptions {
   /// Index in listDevices(), or a part of a name in any case. Empty: the first of the fastest kind
   /// (discrete, integrated, virtual, cpu) that can draw.
-  std::string device;
+  std::string device = {};
   /// Core and synchronization validation; needs the Khronos layer. Messages are collected, never
   /// printed.
   bool validation = false;
   /// What a window asks for (glfwGetRequiredInstanceExtensions). Not empty: the device can present.
-  std::vector<std::string> instance_extensions;
+  std::vector<std::string> instance_extensions = {};
 };
 
 /// A Vulkan device to draw with, shared by everything that draws; used from one thread at a time.

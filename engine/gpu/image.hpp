@@ -7,9 +7,9 @@ namespace slamscope::engine::gpu {
 
 struct ImageInfo {
   vk::Format format = vk::Format::eR8G8B8A8Unorm;
-  vk::Extent2D extent;
+  vk::Extent2D extent = {};
   std::uint32_t layers = 1;
-  vk::ImageUsageFlags usage;
+  vk::ImageUsageFlags usage = {};
 };
 
 /// 2D image on the device, one layer a view; `view()` is always of an array.
