@@ -23,22 +23,23 @@ class RunDecoder {
   [[nodiscard]] SnapshotPtr decode(std::string_view line);
 
   [[nodiscard]] const RunHeader& header() const { return header_; }
-  [[nodiscard]] std::uint64_t lines() const { return lines_; }      ///< seen so far
+  [[nodiscard]] bool begun() const { return begun_; }           ///< header or first record was read
+  [[nodiscard]] std::uint64_t lines() const { return lines_; }  ///< seen so far
   [[nodiscard]] std::uint64_t records() const { return records_; }  ///< read so far
   /// Pairs of neighbouring `step` (or `predict`) records with the same time: readable, but odd.
   [[nodiscard]] std::uint64_t equalStamps() const { return equal_stamps_; }
-  /// A decoder for the same source whose line numbers go on from here: a second run in one stream.
-  [[nodiscard]] RunDecoder restarted() &&;
+  /// Forgets the run, but not the number of the line: another run begins in the same stream.
+  void restart();
 
  private:
-  void checkOrder(const Snapshot& next) const;
+  void checkOrder(const Snapshot& next);
 
   std::string source_;
   LineParser parser_;
   RunHeader header_;
   SnapshotPtr last_;
+  bool begun_ = false;  ///< header or first record seen
   std::uint64_t lines_ = 0;
-  std::uint64_t first_line_ = 0;  ///< lines before this run began
   std::uint64_t records_ = 0;
   std::uint64_t equal_stamps_ = 0;
 };

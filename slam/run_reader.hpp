@@ -32,6 +32,7 @@ class RunReader {
 
  private:
   [[nodiscard]] SnapshotPtr readRecord();
+  [[nodiscard]] std::optional<std::string_view> nextLine();
   [[nodiscard]] SnapshotPtr lastLine();
   void finish();
 
