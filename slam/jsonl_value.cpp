@@ -56,7 +56,8 @@ bool Numbers::isList() const {
 
 std::string Numbers::describe() const {
   if (rows.empty()) return std::to_string(values.size()) + " numbers";
-  const std::string count = std::to_string(rows.size()) + " rows of ";
+  const std::string count =
+      std::to_string(rows.size()) + (rows.size() == 1 ? " row of " : " rows of ");
   if (rowsOf(rows.front())) return count + std::to_string(rows.front()) + " numbers";
   return count + "different lengths, " + std::to_string(values.size()) + " numbers";
 }

@@ -65,6 +65,10 @@ class LiveLink : public Subject {
   [[nodiscard]] const LinkStatus& status() const;
 
  private:
+  [[nodiscard]] std::size_t publishLines();
+  [[nodiscard]] std::size_t publishLine(std::string_view line);
+  [[nodiscard]] std::size_t publishLast();
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -60,27 +60,39 @@ void checkIds(const Snapshot& last, const Snapshot& next) {
 
 }  // namespace
 
-RunDecoder::RunDecoder(std::string source) : source_(std::move(source)) {}
+RunDecoder::RunDecoder(std::string source, Runs allowed)
+    : source_(std::move(source)), allowed_(allowed) {}
 
 SnapshotPtr RunDecoder::decode(std::string_view line) {
   ++lines_;
   if (isBlank(line)) return nullptr;
   try {
     if (const auto header = parser_.header(line)) {
-      if (begun_) throw std::runtime_error("format: expected a record, found a second header");
-      header_ = *header;
-      begun_ = true;
+      if (begun_ && allowed_ == Runs::one) {
+        throw std::runtime_error("format: expected a record, found a second header");
+      }
+      begin(*header);
       return nullptr;
     }
-    auto next = std::make_shared<Snapshot>(parser_.record(line, records_));
+    auto next = std::make_shared<Snapshot>(parser_.record(line, run_records_));
+    const bool again = allowed_ == Runs::many && next->event == Event::initial && last_;
+    if (!begun_ || again) begin(header_);
     if (last_) checkOrder(*next);
-    begun_ = true;
     ++records_;
+    ++run_records_;
     last_ = std::move(next);
     return last_;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(source_ + ":" + std::to_string(lines_) + ": " + error.what());
   }
+}
+
+void RunDecoder::begin(const RunHeader& header) {
+  header_ = header;
+  last_ = nullptr;
+  run_records_ = 0;
+  begun_ = true;
+  ++runs_;
 }
 
 void RunDecoder::checkOrder(const Snapshot& next) {
@@ -92,13 +104,6 @@ void RunDecoder::checkOrder(const Snapshot& next) {
   checkIds(*last_, next);
   const bool whole_step = next.event == Event::step || next.event == Event::predict;
   if (next.time == last_->time && next.event == last_->event && whole_step) ++equal_stamps_;
-}
-
-void RunDecoder::restart() {
-  header_ = {};
-  last_ = nullptr;
-  records_ = equal_stamps_ = 0;
-  begun_ = false;
 }
 
 }  // namespace slamscope::slam

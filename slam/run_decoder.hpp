@@ -16,8 +16,12 @@ namespace slamscope::slam {
 /// The header may be missing: the first line is then a record.
 class RunDecoder {
  public:
+  /// Whether a header or an `initial` record in the middle begins another run (in a live stream, a
+  /// filter that was started again) or is an error (in a file).
+  enum class Runs { one, many };
+
   /// `source` names the run in messages.
-  explicit RunDecoder(std::string source);
+  explicit RunDecoder(std::string source, Runs allowed = Runs::one);
 
   /// The record in this line, or nullptr for the header and for blank lines.
   [[nodiscard]] SnapshotPtr decode(std::string_view line);
@@ -28,19 +32,22 @@ class RunDecoder {
   [[nodiscard]] std::uint64_t records() const { return records_; }  ///< read so far
   /// Pairs of neighbouring `step` (or `predict`) records with the same time: readable, but odd.
   [[nodiscard]] std::uint64_t equalStamps() const { return equal_stamps_; }
-  /// Forgets the run, but not the number of the line: another run begins in the same stream.
-  void restart();
+  [[nodiscard]] std::uint64_t runs() const { return runs_; }
 
  private:
+  void begin(const RunHeader& header);
   void checkOrder(const Snapshot& next);
 
   std::string source_;
+  Runs allowed_;
   LineParser parser_;
   RunHeader header_;
   SnapshotPtr last_;
   bool begun_ = false;  ///< header or first record seen
+  std::uint64_t runs_ = 0;
   std::uint64_t lines_ = 0;
   std::uint64_t records_ = 0;
+  std::uint64_t run_records_ = 0;  ///< of this run
   std::uint64_t equal_stamps_ = 0;
 };
 

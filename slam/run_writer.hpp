@@ -12,7 +12,7 @@ namespace slamscope::slam {
 /// Writes a run; the ending says how (`.jsonl`, `.jsonl.zst`; "-" is standard output, a line at a
 /// time). The file appears, whole, with `finish`; without, nothing is left.
 ///
-///   RunWriter writer("run.jsonl.zst", {.sensor = Sensor::range_bearing});
+///   RunWriter writer("run.jsonl.zst", simulation.header());
 ///   writer.write(*snapshot);
 ///   writer.finish();
 class RunWriter {
