@@ -2,74 +2,76 @@
 #include "slam/faults.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "slam/fault_entry.hpp"
 
 namespace slamscope::slam {
 namespace {
 
-/// The paper's fault (section 4): for certain features the block P_ii is written wrongly in every
-/// update. Instead of losing W S Wᵀ (10) it gains a two-hundredth of the covariance that the
-/// feature was born with. All else is updated rightly, so only pairs with these features go bad,
-/// and P stays positive; the growth is linear in the number of updates, so it stays finite.
-class PaperFault final : public EkfEquations {
- public:
-  PaperFault(Sensor sensor, std::vector<FeatureId> features)
-      : EkfEquations(sensor), features_(std::move(features)) {}
+constexpr std::string_view kMovedFeature = "moved-feature";
 
-  void initialiseCovariance(EkfState& state, const Matrix23d& G_v, const Eigen::Matrix2d& G_z,
-                            const Eigen::Matrix2d& R) override {
-    EkfEquations::initialiseCovariance(state, G_v, G_z, R);
-    const FeatureId id = state.ids.back();
-    if (std::find(features_.begin(), features_.end(), id) == features_.end()) return;
-    born_with_[id] = state.P.bottomRightCorner<2, 2>();
+constexpr FaultEntry kCorrectFilter{{"none", "a correct filter"}, plant<EkfEquations>};
+
+constexpr FaultEntry kWorldFault{{kMovedFeature, "a feature is moved by 0.3 m half-way",
+                                  FaultClass::statistics, 1, FaultBlame::chosen_features},
+                                 plant<EkfEquations>};
+
+struct Catalogue {
+  std::vector<FaultDescription> descriptions;
+  std::vector<FaultEntry> entries;
+
+  Catalogue() {
+    add(kCorrectFilter);
+    for (const auto& theme :
+         {covarianceFaults(), motionFaults(), observationFaults(), statisticsFaults()}) {
+      for (const FaultEntry& entry : theme) add(entry);
+    }
+    add(kWorldFault);
   }
 
-  void updateCovariance(EkfState& state, const Correction& correction) override {
-    std::map<int, Eigen::Matrix2d> wrong;
-    for (const auto& [id, P_born] : born_with_) {
-      if (const auto row = state.rowOf(id)) {
-        wrong[*row] = state.P.block<2, 2>(*row, *row) + kGrowth * P_born;
-      }
-    }
-    EkfEquations::updateCovariance(state, correction);
-    for (const auto& [row, P_ii] : wrong) {
-      state.P.block<2, 2>(row, row).triangularView<Eigen::Lower>() = P_ii;
-    }
+  void add(const FaultEntry& entry) {
+    descriptions.push_back(entry.description);
+    entries.push_back(entry);
   }
-
- private:
-  static constexpr double kGrowth = 0.005;
-
-  std::vector<FeatureId> features_;
-  std::map<FeatureId, Eigen::Matrix2d> born_with_;
 };
 
-constexpr std::array kFaults = {
-    FaultDescription{"none", "a correct filter"},
-    FaultDescription{"paper", "the covariance of certain features grows with every update"},
-};
+const Catalogue& catalogue() {
+  static const Catalogue all;
+  return all;
+}
+
+std::size_t indexOf(std::string_view name) {
+  const auto& all = catalogue().descriptions;
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [name](const auto& known) { return known.name == name; });
+  if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
+  std::string known;
+  for (const FaultDescription& fault : all) {
+    known += (known.empty() ? "" : ", ") + std::string(fault.name);
+  }
+  throw std::invalid_argument("no fault of the name '" + std::string(name) + "'; known: " + known);
+}
 
 }  // namespace
 
 std::span<const FaultDescription> faultNames() {
-  return kFaults;
+  return catalogue().descriptions;
+}
+
+const FaultDescription& faultNamed(std::string_view name) {
+  return catalogue().descriptions[indexOf(name)];
 }
 
 std::unique_ptr<EkfEquations> makeFault(std::string_view name, const FaultOptions& options) {
-  if (name == "none") return std::make_unique<EkfEquations>(options.sensor);
-  if (name == "paper") {
-    const std::vector<FeatureId> by_default{2, 8, 14};
-    return std::make_unique<PaperFault>(options.sensor,
-                                        options.features.empty() ? by_default : options.features);
-  }
-  std::string known;
-  for (const FaultDescription& fault : kFaults) {
-    known += (known.empty() ? "" : ", ") + std::string(fault.name);
-  }
-  throw std::invalid_argument("no fault of the name '" + std::string(name) + "'; known: " + known);
+  return catalogue().entries[indexOf(name)].make(options);
+}
+
+std::optional<FeatureMove> featureMove(std::string_view name) {
+  if (name != kMovedFeature) return std::nullopt;
+  return FeatureMove{};
 }
 
 }  // namespace slamscope::slam

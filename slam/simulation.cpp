@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -10,7 +11,7 @@ namespace slamscope::slam {
 namespace {
 
 /// Independent sequences from one seed (the finaliser of splitmix64).
-enum class Stream : std::uint64_t { world, odometry, sensor, start };
+enum class Stream : std::uint64_t { world, odometry, sensor, start, fault };
 
 std::uint64_t streamSeed(std::uint64_t seed, Stream stream) {
   std::uint64_t z = seed + (static_cast<std::uint64_t>(stream) + 1) * 0x9e3779b97f4a7c15ULL;
@@ -49,15 +50,23 @@ EkfOptions filterOptions(const SimulationOptions& options) {
   return result;
 }
 
-/// By default one feature in each third of the ids: in each cluster of the paper's map.
-std::unique_ptr<EkfEquations> equations(const SimulationOptions& options) {
-  FaultOptions fault{options.sensor, options.fault_features};
-  if (fault.features.empty()) {
-    for (const double share : {0.1, 0.5, 0.9}) {
-      fault.features.push_back(1 + static_cast<FeatureId>(share * options.features));
-    }
+std::vector<FeatureId> faultFeaturesOf(const SimulationOptions& options) {
+  std::vector<FeatureId> features = options.fault_features;
+  if (features.empty()) {
+    const auto at = [&](double share) {
+      return 1 + static_cast<FeatureId>(share * options.features);
+    };
+    features =
+        featureMove(options.fault) ? std::vector{at(0.5)} : std::vector{at(0.1), at(0.5), at(0.9)};
   }
-  return makeFault(options.fault, fault);
+  std::sort(features.begin(), features.end());
+  features.erase(std::unique(features.begin(), features.end()), features.end());
+  return features;
+}
+
+std::unique_ptr<EkfEquations> equationsOf(const SimulationOptions& options) {
+  return makeFault(options.fault, {options.sensor, faultFeaturesOf(options),
+                                   streamSeed(options.seed, Stream::fault)});
 }
 
 Truth startTruth(const SimulationOptions& options) {
@@ -68,16 +77,25 @@ Truth startTruth(const SimulationOptions& options) {
 }  // namespace
 
 Simulation::Simulation(const SimulationOptions& options)
+    : Simulation(options, equationsOf(options)) {}
+
+Simulation::Simulation(const SimulationOptions& options, std::unique_ptr<EkfEquations> equations)
     : options_(checked(options)),
       R_(sensorSigma(options).array().square().matrix().asDiagonal()),
       drive_({options.loops, options.rate, options.speed, options.rest}),
       truth_(startTruth(options)),
       odometry_noise_(streamSeed(options.seed, Stream::odometry)),
       sensor_noise_(streamSeed(options.seed, Stream::sensor)),
-      filter_(filterOptions(options), equations(options)) {}
+      filter_(filterOptions(options), std::move(equations)) {
+  static_cast<void>(faultNamed(options.fault));  // throws where there is none of that name
+}
 
 bool Simulation::step() {
   if (next_step_ > drive_.stepCount()) return false;
+  if (const auto move = featureMove(options_.fault);
+      move && next_step_ == static_cast<int>(move->at * drive_.stepCount())) {
+    moveFeatures();
+  }
   truth_.pose = drive_.pose(next_step_);
   const std::chrono::nanoseconds time = drive_.timeOf(next_step_);
   if (next_step_ == 0) {
@@ -97,6 +115,21 @@ double Simulation::progress() const {
   return static_cast<double>(next_step_) / (drive_.stepCount() + 1);
 }
 
+std::vector<FeatureId> Simulation::faultFeatures() const {
+  return faultFeaturesOf(options_);
+}
+
+void Simulation::moveFeatures() {
+  const double distance = featureMove(options_.fault)->distance;
+  for (const FeatureId id : faultFeatures()) {
+    const auto found = std::find(truth_.ids.begin(), truth_.ids.end(), id);
+    if (found == truth_.ids.end()) continue;
+    Eigen::Vector2d& feature =
+        truth_.features[static_cast<std::size_t>(found - truth_.ids.begin())];
+    feature += distance * (feature - kLoopCentre).normalized();
+  }
+}
+
 RunHeader Simulation::header() const {
   RunHeader header;
   header.sensor = options_.sensor;
@@ -110,12 +143,23 @@ Motion Simulation::odometry(int step) {
   const double duration = 1.0 / options_.rate;
   // The robot keeps to its loop and the odometry is what errs, so that any number of loops stays in
   // the camera's view. Wheels that stand still are read exactly.
+  if (options_.motion == MotionInput::increment) return increments(velocity, duration);
   if (velocity.isZero()) return Motion::fromVelocity(0.0, 0.0, duration, Eigen::Matrix2d::Zero());
   const Eigen::Vector2d& sigma = options_.odometry_sigma;
   const double forward = velocity[0] + sigma[0] * odometry_noise_.normal();
   const double turn = velocity[1] + sigma[1] * odometry_noise_.normal();
   return Motion::fromVelocity(forward, turn, duration,
                               sigma.array().square().matrix().asDiagonal());
+}
+
+Motion Simulation::increments(const Eigen::Vector2d& velocity, double duration) {
+  if (velocity.isZero())
+    return Motion::fromIncrement(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
+  const Eigen::Vector2d sigma = duration * options_.odometry_sigma;
+  const Eigen::Vector3d sigmas(sigma[0], sigma[0], sigma[1]);
+  Eigen::Vector3d increment = arcIncrement(velocity, duration);
+  for (int k = 0; k < 3; ++k) increment[k] += sigmas[k] * odometry_noise_.normal();
+  return Motion::fromIncrement(increment, sigmas.array().square().matrix().asDiagonal());
 }
 
 std::vector<Observation> Simulation::readings() {

@@ -14,13 +14,19 @@
 
 namespace slamscope::slam {
 
+/// What the odometry reports: (forward, turn) velocities, or how far the robot came since the last
+/// time step (dx, dy, dθ in its frame).
+enum class MotionInput { velocity, increment };
+
 struct SimulationOptions {
   WorldKind world = WorldKind::three_clusters;
   int features = 15;
   int loops = 3;
   std::uint64_t seed = 1;
-  std::string fault = "none";             ///< a name of faultNames()
-  std::vector<FeatureId> fault_features;  ///< see FaultOptions::features
+  std::string fault = "none";  ///< a name of faultNames()
+  /// See FaultOptions::features. Default: `paper` one feature in each third of the ids (in each
+  /// cluster of the paper's map), `moved-feature` the middle one of these.
+  std::vector<FeatureId> fault_features;
   /// σ of the start pose: x, y (m), θ (rad). Where not zero the estimate starts off by a draw.
   Eigen::Vector3d initial_sigma = Eigen::Vector3d::Zero();
   UpdateMode update = UpdateMode::batch;
@@ -29,12 +35,15 @@ struct SimulationOptions {
   /// σ of a reading: range (m) and bearing (rad), or x and y (m) for Sensor::relative_position.
   /// Default: 0.06 m and 0.04 rad, or 0.05 m twice.
   std::optional<Eigen::Vector2d> sensor_sigma;
-  Eigen::Vector2d odometry_sigma{0.03, 0.06};  ///< forward (m/s), turn (rad/s); none at rest
-  double rate = 10.0;                          ///< time steps and readings, 1/s
-  double speed = 0.25;                         ///< m/s
-  double rest = 1.0;                           ///< s at the start
-  double sensor_range = 2.0;                   ///< m
-  double field_of_view = 2.0943951023931953;   ///< rad, centred on the heading (120°)
+  MotionInput motion = MotionInput::velocity;
+  /// σ of forward (m/s) and turn (rad/s); none at rest. Of an increment: these times the time step,
+  /// the first of them sideways too.
+  Eigen::Vector2d odometry_sigma{0.03, 0.06};
+  double rate = 10.0;                         ///< time steps and readings, 1/s
+  double speed = 0.25;                        ///< m/s
+  double rest = 1.0;                          ///< s at the start
+  double sensor_range = 2.0;                  ///< m
+  double field_of_view = 2.0943951023931953;  ///< rad, centred on the heading (120°)
   bool record_jacobians = false;
 };
 
@@ -48,6 +57,8 @@ class Simulation {
  public:
   /// Throws std::invalid_argument for options out of range or an unknown fault.
   explicit Simulation(const SimulationOptions& options);
+  /// With a filter of these equations; `options.fault` is planted in the world only.
+  Simulation(const SimulationOptions& options, std::unique_ptr<EkfEquations> equations);
 
   /// The Subject to observe; attach before the first step().
   [[nodiscard]] EkfSlam& filter() { return filter_; }
@@ -67,11 +78,15 @@ class Simulation {
     return drive_.timeOf(drive_.stepCount());
   }
   [[nodiscard]] std::chrono::nanoseconds timeStep() const { return drive_.timeOf(1); }
+  /// What the fault is to be pinned on where it is one of certain features, sorted.
+  [[nodiscard]] std::vector<FeatureId> faultFeatures() const;
   [[nodiscard]] RunHeader header() const;
   [[nodiscard]] const SimulationOptions& options() const { return options_; }
 
  private:
+  void moveFeatures();
   [[nodiscard]] Motion odometry(int step);
+  [[nodiscard]] Motion increments(const Eigen::Vector2d& velocity, double duration);
   [[nodiscard]] std::vector<Observation> readings();
   [[nodiscard]] bool inView(const Eigen::Vector2d& feature) const;
 

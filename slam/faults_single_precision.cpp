@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "slam/faults_single_precision.hpp"
+
+namespace slamscope::slam {
+
+void SinglePrecision::predictCovariance(EkfState& state, const Eigen::Matrix3d& F,
+                                        const Eigen::Matrix3d& Q) {
+  const Eigen::Matrix3f F_x = F.cast<float>();
+  Eigen::MatrixXf P = state.P.cast<float>();
+  P.topRows<3>() = (F_x * P.topRows<3>()).eval();
+  P.leftCols<3>() = (P.leftCols<3>() * F_x.transpose()).eval();
+  P.topLeftCorner<3, 3>() += Q.cast<float>();
+  state.P = P.cast<double>();
+}
+
+void SinglePrecision::updateCovariance(EkfState& state, const Correction& correction) {
+  const Eigen::Index m = correction.innovation.size();
+  Eigen::MatrixXf H(m, state.size());
+  for (Eigen::Index k = 0; k < m / 2; ++k) {
+    const ObservationJacobian& H_k = correction.observations[static_cast<std::size_t>(k)].H;
+    H.middleRows<2>(2 * k) = H_k.dense(state.size()).cast<float>();
+  }
+  const Eigen::MatrixXf S = correction.S.cast<float>();
+  const Eigen::MatrixXf P = state.P.cast<float>();
+  const Eigen::MatrixXf K = P * H.transpose() * S.inverse();
+  const Eigen::MatrixXf I = Eigen::MatrixXf::Identity(state.size(), state.size());
+  const Eigen::MatrixXf I_KH = I - K * H;
+  state.P = (I_KH * P).cast<double>();
+}
+
+void SinglePrecision::initialiseCovariance(EkfState& state, const Matrix23d& G_v,
+                                           const Eigen::Matrix2d& G_z, const Eigen::Matrix2d& R) {
+  const int old = state.size() - 2;
+  const Eigen::Matrix<float, 2, 3> G = G_v.cast<float>();
+  const Eigen::Matrix2f noise = (G_z * R * G_z.transpose()).cast<float>();
+  const Eigen::MatrixXf P = state.P.topLeftCorner(old, old).cast<float>();
+  state.P.bottomLeftCorner(2, old) = (G * P.topRows<3>()).cast<double>();
+  state.P.topRightCorner(old, 2) = (P.leftCols<3>() * G.transpose()).cast<double>();
+  state.P.bottomRightCorner<2, 2>() =
+      (G * P.topLeftCorner<3, 3>() * G.transpose() + noise).cast<double>();
+}
+
+std::optional<double> SinglePrecision::asymmetry(const EkfState& state) const {
+  return (state.P - state.P.transpose()).cwiseAbs().maxCoeff();
+}
+
+}  // namespace slamscope::slam
