@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "engine/window/window.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "tests/engine/virtual_display.hpp"
+
+#include <X11/keysym.h>
+
+namespace slamscope::engine {
+namespace {
+
+Image noise(int width, int height, unsigned seed) {
+  std::mt19937 random(seed);
+  Image image{width, height, {}};
+  image.rgba.resize(static_cast<std::size_t>(4) * width * height);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    image.rgba[i] = i % 4 == 3 ? 255 : static_cast<std::uint8_t>(random());
+  }
+  return image;
+}
+
+Image plain(int width, int height, std::uint8_t red, std::uint8_t green) {
+  Image image{width, height, {}};
+  for (int i = 0; i < width * height; ++i) {
+    for (const std::uint8_t byte : {red, green, std::uint8_t{30}, std::uint8_t{255}}) {
+      image.rgba.push_back(byte);
+    }
+  }
+  return image;
+}
+
+Rgba bytesAt(const Image& image, int x, int y) {
+  const std::uint8_t* p = &image.rgba[4 * (static_cast<std::size_t>(y) * image.width + x)];
+  return {float(p[0]), float(p[1]), float(p[2]), float(p[3])};
+}
+
+bool operator==(const Rgba& a, const Rgba& b) {
+  return a.r == b.r && a.g == b.g && a.b == b.b;
+}
+
+constexpr const char* kTitle = "a test of slamscope";
+
+// Every test draws with validation on, and must leave it silent.
+class WindowTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!display_.running()) GTEST_SKIP() << "Xvfb is not installed";
+    gpu_ = std::make_shared<Gpu>(GpuOptions{
+        .device = {}, .validation = true, .instance_extensions = windowInstanceExtensions()});
+  }
+
+  void TearDown() override {
+    if (!gpu_) return;
+    for (const std::string& message : gpu_->validationMessages()) ADD_FAILURE() << message;
+  }
+
+  // Presenting is asynchronous: shows until the screen has it (true), or for 10 s in vain (false).
+  bool becomes(Window& window, std::span<const Image> pictures, const auto& as_wanted) {
+    for (int i = 0; i < 200; ++i) {
+      (void)window.poll();
+      window.show(pictures);
+      const auto seen = display_.screenshot(kTitle);
+      if (seen && as_wanted(*seen)) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
+  bool becomes(Window& window, const Image& picture) {
+    return becomes(window, {&picture, 1}, [&picture](const Image& seen) {
+      return seen.width == picture.width && seen.rgba == picture.rgba;
+    });
+  }
+
+  VirtualDisplay display_;
+  std::shared_ptr<Gpu> gpu_;
+};
+
+TEST_F(WindowTest, ShowsPicturesByteForByte) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
+  const Image picture = noise(320, 240, 1);
+  EXPECT_TRUE(becomes(window, picture));
+  EXPECT_GT(window.framesPerSecond(), 0.0);
+
+  // Twin: the screen is not equal to a picture of which one byte differs.
+  Image other = picture;
+  other.rgba[4 * 100] ^= 1;
+  EXPECT_NE(display_.screenshot(kTitle)->rgba, other.rgba);
+}
+
+TEST_F(WindowTest, PicturesOfAnotherShapeStandInTheMiddleOnBlack) {
+  Window window(gpu_, {.title = kTitle, .width = 500, .height = 240});
+  const Image picture = plain(320, 240, 200, 100);
+  EXPECT_TRUE(becomes(window, {&picture, 1}, [](const Image& seen) {
+    return bytesAt(seen, 89, 120) == Rgba{0, 0, 0, 0} &&
+           bytesAt(seen, 90, 0) == Rgba{200, 100, 30, 0} &&
+           bytesAt(seen, 409, 239) == Rgba{200, 100, 30, 0} &&
+           bytesAt(seen, 410, 120) == Rgba{0, 0, 0, 0};
+  }));
+}
+
+TEST_F(WindowTest, TwoPicturesStandSideBySideAndAreScaledToFit) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 120});
+  const std::vector<Image> pair = {plain(320, 240, 200, 0), plain(320, 240, 0, 200)};
+  EXPECT_TRUE(becomes(window, pair, [](const Image& seen) {
+    return bytesAt(seen, 0, 0) == Rgba{200, 0, 30, 0} &&
+           bytesAt(seen, 159, 119) == Rgba{200, 0, 30, 0} &&
+           bytesAt(seen, 160, 0) == Rgba{0, 200, 30, 0} &&
+           bytesAt(seen, 319, 119) == Rgba{0, 200, 30, 0};
+  }));
+}
+
+TEST_F(WindowTest, FollowsResizingSilently) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
+  EXPECT_TRUE(becomes(window, noise(320, 240, 2)));
+  for (const auto& [width, height] : {std::pair{400u, 300u}, {160u, 120u}, {401u, 33u}, {1u, 1u}}) {
+    display_.resize(kTitle, width, height);
+    EXPECT_TRUE(becomes(window, noise(int(width), int(height), width)));
+  }
+  window.resize(320, 240);
+  EXPECT_TRUE(becomes(window, noise(320, 240, 3)));
+}
+
+TEST_F(WindowTest, ResizingBetweenPollAndShowIsSilentToo) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
+  const Image picture = noise(320, 240, 4);
+  for (unsigned i = 0; i < 20; ++i) {
+    (void)window.poll();
+    display_.resize(kTitle, 300 + 3 * i, 200 + 5 * i);
+    window.show({&picture, 1});
+  }
+  display_.resize(kTitle, 320, 240);
+  EXPECT_TRUE(becomes(window, picture));
+}
+
+TEST_F(WindowTest, ShowsNothingWhileMinimisedAndComesBack) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
+  EXPECT_TRUE(becomes(window, noise(320, 240, 5)));
+  display_.setMinimised(kTitle, true);
+  const Image picture = noise(320, 240, 6);
+  for (int i = 0; i < 10; ++i) {
+    (void)window.poll();
+    window.show({&picture, 1});
+    EXPECT_FALSE(display_.screenshot(kTitle));
+  }
+  EXPECT_TRUE(window.open());
+  display_.setMinimised(kTitle, false);
+  EXPECT_TRUE(becomes(window, picture));
+}
+
+TEST_F(WindowTest, SurvivesTheLossOfSurfaceAndSwapchain) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 240, .low_latency = true});
+  for (unsigned i = 0; i < 5; ++i) {
+    const Image picture = noise(320, 240, 10 + i);
+    window.show({&picture, 1});
+    window.rebuild();
+    EXPECT_TRUE(becomes(window, picture));
+  }
+}
+
+TEST_F(WindowTest, PicturesOfChangingSizeFollowEachOther) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
+  for (const int width : {64, 640, 320}) {
+    const Image picture = noise(width, width * 3 / 4, 20);
+    (void)window.poll();
+    window.show({&picture, 1});
+  }
+  EXPECT_TRUE(becomes(window, noise(320, 240, 21)));
+  EXPECT_THROW(window.show(std::span<const Image>{}), std::invalid_argument);
+  Image broken = noise(320, 240, 22);
+  broken.rgba.pop_back();
+  EXPECT_THROW(window.show({&broken, 1}), std::invalid_argument);
+  EXPECT_TRUE(becomes(window, noise(320, 240, 23)));
+}
+
+TEST_F(WindowTest, KeysComeAsTyped) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
+  EXPECT_TRUE(becomes(window, noise(320, 240, 7)));
+  display_.pressKey(kTitle, XK_m);
+  display_.pressKey(kTitle, XK_m, true);
+  display_.pressKey(kTitle, XK_space);
+  display_.pressKey(kTitle, XK_Right, true);
+  display_.pressKey(kTitle, XK_Escape);
+  const auto keys = window.poll().keys;
+  ASSERT_EQ(keys.size(), 5u);
+  EXPECT_EQ(keys[0].character, U'm');
+  EXPECT_EQ(keys[1].character, U'M');
+  EXPECT_EQ(keys[2].character, U' ');
+  EXPECT_EQ(keys[3].key, Key::right);
+  EXPECT_TRUE(keys[3].shift);
+  EXPECT_EQ(keys[4].key, Key::escape);
+  EXPECT_TRUE(window.poll().keys.empty());
+}
+
+TEST_F(WindowTest, ClicksComeInPixelsOfThePicture) {
+  Window window(gpu_, {.title = kTitle, .width = 500, .height = 240});
+  EXPECT_TRUE(becomes(window, noise(500, 240, 8)));
+  const Image picture = noise(320, 240, 8);
+  window.show({&picture, 1});
+  display_.click(kTitle, 90 + 25, 60);
+  const auto clicks = window.poll().clicks;
+  ASSERT_EQ(clicks.size(), 1u);
+  EXPECT_EQ(clicks[0].view, 0);
+  EXPECT_EQ(clicks[0].button, 0);
+  EXPECT_EQ(clicks[0].picture_px,
+            Eigen::Vector2d(24.5, 59.5));  // a corner of the pixel, in OpenCV's
+  display_.click(kTitle, 10, 60);          // in the border
+  EXPECT_TRUE(window.poll().clicks.empty());
+}
+
+TEST_F(WindowTest, ClosesWhenAsked) {
+  Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
+  EXPECT_TRUE(window.open());
+  display_.askToClose(kTitle);
+  (void)window.poll();
+  EXPECT_FALSE(window.open());
+}
+
+TEST_F(WindowTest, OpensTwiceAndFullScreen) {
+  { Window first(gpu_, {.title = kTitle, .width = 320, .height = 240}); }
+  Window second(gpu_, {.title = kTitle, .full_screen = true});
+  EXPECT_TRUE(becomes(second, noise(800, 600, 9)));
+}
+
+TEST_F(WindowTest, MonitorThatIsNotThereIsNamed) {
+  try {
+    Window window(gpu_, {.title = kTitle, .monitor = 3, .full_screen = true});
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()), "monitor 3 was asked for, but there is one (0)");
+  }
+}
+
+TEST_F(WindowTest, GpuThatWasMadeForFilesIsRefused) {
+  const auto for_files = std::make_shared<Gpu>();
+  EXPECT_THROW(Window(for_files, {.title = kTitle}), std::runtime_error);
+}
+
+TEST(WindowWithoutDisplay, SaysSoAndWhatToDo) {
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  EXPECT_FALSE(displayAvailable());
+  try {
+    (void)windowInstanceExtensions();
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "a window was asked for but there is no display: set DISPLAY, or use --output");
+  }
+  setenv("DISPLAY", ":987", 1);
+  EXPECT_TRUE(displayAvailable());
+  EXPECT_THROW((void)windowInstanceExtensions(), std::runtime_error);  // nobody answers there
+  setenv("DISPLAY", "", 1);
+  EXPECT_FALSE(displayAvailable());
+}
+
+}  // namespace
+}  // namespace slamscope::engine
