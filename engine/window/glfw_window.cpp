@@ -96,22 +96,16 @@ GLFWwindow* create(const WindowOptions& options) {
 
 }  // namespace
 
-std::shared_ptr<GlfwLibrary> GlfwLibrary::get() {
-  // GLFW itself is one a process; this only counts who uses it.
-  static std::weak_ptr<GlfwLibrary> shared;
-  auto library = shared.lock();
-  if (!library) {
-    library.reset(new GlfwLibrary);
-    shared = library;
-  }
-  return library;
-}
-
-GlfwLibrary::GlfwLibrary() {
+GlfwLibrary& GlfwLibrary::get() {
   if (!displayAvailable()) {
     throw std::runtime_error(
         "a window was asked for but there is no display: set DISPLAY, or use --output");
   }
+  static GlfwLibrary library;
+  return library;
+}
+
+GlfwLibrary::GlfwLibrary() {
   if (glfwInit() != GLFW_TRUE) {
     throw std::runtime_error("a window was asked for but the display can't be opened (" +
                              lastError() + "): set DISPLAY, or use --output");
@@ -132,8 +126,9 @@ std::vector<std::string> GlfwLibrary::instanceExtensions() const {
   return {names, names + count};
 }
 
-GlfwWindow::GlfwWindow(const WindowOptions& options)
-    : library_(GlfwLibrary::get()), handle_(create(options)) {
+GlfwWindow::GlfwWindow(const WindowOptions& options) {
+  (void)GlfwLibrary::get();
+  handle_ = create(options);
   if (handle_ == nullptr) {
     throw std::runtime_error("the window can't be opened: " + lastError());
   }

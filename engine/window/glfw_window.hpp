@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,10 +13,13 @@ struct GLFWwindow;
 
 namespace slamscope::engine {
 
-/// GLFW, started as long as somebody holds it. Throws std::runtime_error where there is no display.
+/// GLFW. Started when first asked for, and then for as long as the program runs: Mesa remembers the
+/// connection to the display by its address, and takes a second one at the same address for the
+/// first (X error BadRequest, seen with 22.3.6).
 class GlfwLibrary {
  public:
-  [[nodiscard]] static std::shared_ptr<GlfwLibrary> get();
+  /// Throws std::runtime_error where there is no display.
+  [[nodiscard]] static GlfwLibrary& get();
   ~GlfwLibrary();
   GlfwLibrary(const GlfwLibrary&) = delete;
   GlfwLibrary& operator=(const GlfwLibrary&) = delete;
@@ -59,7 +61,6 @@ class GlfwWindow {
   [[nodiscard]] VkSurfaceKHR makeSurface(VkInstance instance) const;
 
  private:
-  std::shared_ptr<GlfwLibrary> library_;
   GLFWwindow* handle_ = nullptr;
   Events events_;
 };

@@ -50,7 +50,7 @@ struct Window::Parts {
 };
 
 std::vector<std::string> windowInstanceExtensions() {
-  return GlfwLibrary::get()->instanceExtensions();
+  return GlfwLibrary::get().instanceExtensions();
 }
 
 Window::Window(std::shared_ptr<Gpu> gpu, const WindowOptions& options)

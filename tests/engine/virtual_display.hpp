@@ -21,10 +21,17 @@
 
 namespace slamscope::engine {
 
-/// A display in memory (Xvfb) of 800 × 600 as $DISPLAY, and the other side of it: what a person and
+/// A display in memory (Xvfb) of 800 × 600, and the other side of it: what a person and
 /// a window manager do to a window, and what is seen on the screen.
 class VirtualDisplay {
  public:
+  /// One for all tests of a process: GLFW never leaves its first display. Started before GLFW, so
+  /// it ends after it.
+  [[nodiscard]] static VirtualDisplay& ofThisProcess() {
+    static VirtualDisplay display;
+    return display;
+  }
+
   VirtualDisplay() {
     int ends[2];
     if (pipe(ends) != 0) return;
@@ -44,10 +51,9 @@ class VirtualDisplay {
     for (char c = 0; server_ != 0 && read(ends[0], &c, 1) == 1 && c != '\n';) number += c;
     close(ends[0]);
     if (number.empty()) return;
-    setenv("DISPLAY", (":" + number).c_str(), 1);
-    unsetenv("WAYLAND_DISPLAY");
+    name_ = ":" + number;
     // With this connection open the server stays; it ends by itself when the test dies.
-    display_ = XOpenDisplay(nullptr);
+    display_ = XOpenDisplay(name_.c_str());
   }
 
   ~VirtualDisplay() {
@@ -56,13 +62,18 @@ class VirtualDisplay {
       kill(server_, SIGTERM);
       waitpid(server_, nullptr, 0);
     }
-    unsetenv("DISPLAY");
   }
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
   /// False where Xvfb is not installed.
   [[nodiscard]] bool running() const { return display_ != nullptr; }
+
+  /// Makes it $DISPLAY.
+  void use() const {
+    setenv("DISPLAY", name_.c_str(), 1);
+    unsetenv("WAYLAND_DISPLAY");
+  }
 
   /// What the window shows; none while it has another size, or is not on the screen.
   [[nodiscard]] std::optional<Image> screenshot(const std::string& title) const {
@@ -166,6 +177,7 @@ class VirtualDisplay {
   }
 
   pid_t server_ = 0;
+  std::string name_;
   Display* display_ = nullptr;
   ::Window minimised_ = 0;
   Time time_ms_ = 1000;
