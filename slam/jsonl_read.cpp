@@ -115,7 +115,7 @@ void setCovariance(Snapshot& snapshot, Shapes& shapes) {
   } else if (read.values.size() == n * n && (read.rows.empty() || read.rowsOf(n))) {
     double asymmetry = 0.0;
     snapshot.covariance = PackedCovariance(size, lowerOf(read.values, n, asymmetry));
-    snapshot.asymmetry = asymmetry;
+    snapshot.asymmetry = std::max(asymmetry, snapshot.asymmetry.value_or(0.0));
   } else {
     const std::string side = std::to_string(n);
     fail("covariance",
@@ -219,6 +219,8 @@ void readOptional(std::string_view key, Value& value, Snapshot& snapshot, Shapes
     json::numbers(value, key, read);
     snapshot.control = Eigen::Map<const Eigen::VectorXd>(
         read.values.data(), static_cast<Eigen::Index>(read.values.size()));
+  } else if (key == "asymmetry") {
+    snapshot.asymmetry = json::number(value, key);
   } else if (key == "Q") {
     snapshot.Q = json::symmetric(value, key, 3);
   } else if (key == "truth") {

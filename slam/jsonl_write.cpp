@@ -120,6 +120,9 @@ void putCovariance(Text& text, const Snapshot& snapshot) {
   if (!snapshot.diagonal_only) {
     text.put(", \"covariance\": ");
     text.numbers(snapshot.covariance.packed());
+    if (!snapshot.asymmetry) return;
+    text.put(", \"asymmetry\": ");  // a triangle can't tell
+    text.number(*snapshot.asymmetry);
     return;
   }
   std::vector<double> diagonal;

@@ -15,7 +15,7 @@ namespace slamscope::slam {
 /// One line of odometry, in the frame of the robot (x forward, y left).
 struct OdometryEntry {
   std::chrono::nanoseconds time{};
-  /// Recording::Odometry::velocity: vx, vy (m/s), turn (rad/s), held until the next entry.
+  /// Recording::Odometry::velocity: forward (m/s), 0, turn (rad/s), held until the next entry.
   /// Recording::Odometry::increment: dx, dy (m), dθ (rad) moved since the entry before.
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
 };
@@ -68,6 +68,9 @@ struct Recording {
 
 /// Moves path and features into the frame of the map. For readers; does nothing without a path.
 void moveTruthIntoMap(Recording& recording);
+
+/// Throws std::runtime_error where there is no odometry or nothing was seen. For readers.
+void requireInput(const Recording& recording, const std::string& path);
 
 /// Puts sightings of equal time into one group; counts equal stamps. For readers: `seen` by time.
 void addSighting(Recording& recording, std::chrono::nanoseconds time, const RangeBearing& seen);

@@ -223,6 +223,8 @@ TEST(JsonLines, AFullMatrixKeepsItsWorstAsymmetry) {
   EXPECT_EQ(asymmetry("[[1, 2.5, 4], [2, 3, 5], [4, 5.25, 6]]"), 0.5);
   EXPECT_EQ(asymmetry("[[1, NaN, 4], [2, 3, 5], [4, 5, 6]]"), kInfinity);
   EXPECT_EQ(asymmetry("[[1, NaN, 4], [NaN, 3, 5], [4, 5, 6]]"), 0.0);
+  const Snapshot faulty = parse(record(R"("covariance": [1, 2, 9, 2, 3, 5, 4, 5, 6])"));
+  EXPECT_EQ(parse(formatRecord(faulty)).asymmetry, 5.0) << "kept where a triangle is written";
   const Snapshot lower = parse(record(R"("covariance": [[1, 2.5, 4], [2, 3, 5], [4, 5, 6]])"));
   EXPECT_EQ(lower.covariance(0, 1), 2.0) << "the lower triangle is the one that is read";
 }
