@@ -46,17 +46,18 @@ Eigen::Isometry3d inPlane(const Eigen::Vector3d& pose) {
 struct Lab::Parts {
   explicit Parts(const LabOptions& options)
       : room(options), robot(options), painter(options, room, robot), sensor(options) {
-    light = painter.background();
-    still = light;
+    const lab::Canvas& light = painter.background();
+    still = painted = light;
     sensor.expose(light, {0, 0, light.width, light.height}, still);
-    painted = light;
     exposed = still;
   }
 
   /// Brings `exposed` up to date: only where the robot is, or was.
   void expose(lab::Motion now) {
     const bool rests = now.T_world_robot.size() == 1 && motion.T_world_robot.size() == 1;
-    if (rests && now.middle().matrix() == motion.middle().matrix()) return;
+    if (rests && now.T_world_robot.front().matrix() == motion.T_world_robot.front().matrix())
+      return;
+    const lab::Canvas& light = painter.background();
     copy(light, changed, painted);
     copy(still, changed.grown(sensor.margin(), light.width, light.height), exposed);
     motion = std::move(now);
@@ -69,7 +70,7 @@ struct Lab::Parts {
   lab::Robot robot;
   lab::Painter painter;
   lab::Sensor sensor;
-  lab::Canvas light, still;  // the empty room, before the lens and after it
+  lab::Canvas still;  // the empty room, as the sensor sees it
   // The frame asked for last, before the lens and after it (a robot that rests is painted once).
   lab::Canvas painted, exposed;
   lab::Motion motion;

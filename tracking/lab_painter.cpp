@@ -5,27 +5,32 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core/utility.hpp>
+#include <span>
 
 namespace slamscope::tracking::lab {
 namespace {
 
-constexpr int kSamples = 97;
+constexpr int kBlock = 16;  // px
 
 /// Place in the pixel and moment of the exposure, each 0..1.
 struct LatticePoint {
   double x, y, moment;
 };
 
-/// A Korobov lattice: 97 different columns, rows and moments, evenly spread also together, so that
-/// an edge of any direction is placed to 1/194 px or better (a 10 × 10 grid misplaces an edge along
-/// its own axes by up to 1/20 px).
-constexpr std::array<LatticePoint, kSamples> kLattice = [] {
-  std::array<LatticePoint, kSamples> points{};
-  for (int i = 0; i < kSamples; ++i)
-    points[i] = {(i + 0.5) / kSamples, (i * 52 % kSamples + 0.5) / kSamples,
-                 (i * 85 % kSamples + 0.5) / kSamples};
+/// A Korobov lattice: `size` different columns, rows and moments, evenly spread also together, so
+/// that an edge of any direction is placed to 1 / (2 size) px or better. (A grid of 10 × 10
+/// misplaces an edge along its own axes by up to 1/20 px.)
+template <int size, int generator>
+constexpr std::array<LatticePoint, size> makeLattice() {
+  std::array<LatticePoint, size> points{};
+  for (int i = 0; i < size; ++i)
+    points[i] = {(i + 0.5) / size, (i * generator % size + 0.5) / size,
+                 (i * generator * generator % size + 0.5) / size};
   return points;
-}();
+}
+
+constexpr auto kFine = makeLattice<97, 52>();   // what stands still
+constexpr auto kQuick = makeLattice<31, 11>();  // what moves, and is blurred by it
 
 void forRows(int first, int last, const std::function<void(int)>& work) {
   cv::parallel_for_(cv::Range(first, last), [&](const cv::Range& rows) {
@@ -40,12 +45,12 @@ Region Region::grown(int by, int width, int height) const {
           std::min(height, bottom + by)};
 }
 
-const Eigen::Isometry3d& Motion::at(double row, double moment) const {
+std::size_t Motion::at(double row, double moment) const {
   const double whole = exposure + readout;
-  if (T_world_robot.size() == 1 || whole <= 0) return T_world_robot.front();
+  if (T_world_robot.size() == 1 || whole <= 0) return 0;
   const double part = (row * readout + moment * exposure) / whole;
   const double last = static_cast<double>(T_world_robot.size() - 1);
-  return T_world_robot[static_cast<std::size_t>(std::lround(part * last))];
+  return static_cast<std::size_t>(std::lround(part * last));
 }
 
 /// What is seen through the corners of a region's pixels.
@@ -73,67 +78,116 @@ struct Painter::Corners {
   }
 };
 
+/// A motion, ready for rays of the camera.
+struct Painter::Exposure {
+  const Motion& motion;
+  std::vector<Eigen::Isometry3d> T_robot_camera;
+
+  Exposure(const Motion& of, const Eigen::Isometry3d& T_world_camera) : motion(of) {
+    for (const Eigen::Isometry3d& T_world_robot : motion.T_world_robot)
+      T_robot_camera.push_back(T_world_robot.inverse() * T_world_camera);
+  }
+};
+
 Painter::Painter(const LabOptions& options, const Room& room, const Robot& robot)
     : room_(room),
       robot_(robot),
       camera_(options.camera),
       lens_(options.camera),
-      T_world_camera_(options.T_world_camera) {}
+      T_world_camera_(options.T_world_camera) {
+  paintBackground();
+}
 
 Painter::Corners Painter::traceCorners(const Region& region,
-                                       const std::function<Sample(const Ray&)>& trace) const {
+                                       const std::function<Sample(int, int)>& trace) const {
   const int width = region.right - region.left + 1, height = region.bottom - region.top + 1;
-  Corners corners{.region = region,
-                  .samples = std::vector<Sample>(static_cast<std::size_t>(width) * height)};
+  Corners corners{.region = region, .samples = {}};
+  corners.samples.resize(static_cast<std::size_t>(width) * height);
   forRows(0, height, [&](int row) {
     for (int column = 0; column < width; ++column)
       corners.samples[static_cast<std::size_t>(row) * width + column] =
-          trace(rayInWorld(lens_.corner(region.left + column, region.top + row)));
+          trace(region.left + column, region.top + row);
   });
   return corners;
 }
 
-Eigen::Array3f Painter::sampleRoom(int column, int row) const {
+Eigen::Array3f Painter::sampleRoom(int column, int row, const Room::Candidates& of) const {
   Eigen::Array3f sum = Eigen::Array3f::Zero();
-  for (const LatticePoint& p : kLattice)
-    sum += room_.trace(rayInWorld(lens_.direction(column, row, p.x, p.y))).colour;
-  return sum / kSamples;
+  for (const LatticePoint& p : kFine)
+    sum += room_.trace(rayInWorld(lens_.direction(column, row, p.x, p.y)), of).colour;
+  return sum / static_cast<float>(kFine.size());
 }
 
-Canvas Painter::background() const {
+void Painter::paintBackground() {
   const Region all{0, 0, lens_.width(), lens_.height()};
-  const Corners corners = traceCorners(all, [this](const Ray& ray) { return room_.trace(ray); });
-  Canvas canvas{.width = all.right, .height = all.bottom, .pixels = {}};
-  canvas.pixels.resize(static_cast<std::size_t>(all.right) * all.bottom);
+  // What each block of pixels may see.
+  const int across = all.right / kBlock + 1, down = all.bottom / kBlock + 1;
+  std::vector<Room::Candidates> blocks(static_cast<std::size_t>(across) * down);
+  for (int row = 0; row < down; ++row)
+    for (int column = 0; column < across; ++column) {
+      const auto corner = [&](int c, int r) {
+        return lens_.corner(std::min(all.right, c), std::min(all.bottom, r));
+      };
+      const Eigen::Vector3d first = corner(column * kBlock, row * kBlock);
+      const Eigen::Vector3d last = corner((column + 1) * kBlock, (row + 1) * kBlock);
+      blocks[static_cast<std::size_t>(row) * across + column] =
+          room_.candidates(rayInWorld(first + last), (last - first).norm());
+    }
+  const auto seen = [&](int column, int row) -> const Room::Candidates& {
+    return blocks[static_cast<std::size_t>(row / kBlock) * across + column / kBlock];
+  };
+  const Corners corners = traceCorners(all, [&](int column, int row) {
+    return room_.trace(rayInWorld(lens_.corner(column, row)), seen(column, row));
+  });
+  background_ = {.width = all.right, .height = all.bottom, .pixels = {}};
+  background_.pixels.resize(static_cast<std::size_t>(all.right) * all.bottom);
   forRows(0, all.bottom, [&](int row) {
     for (int column = 0; column < all.right; ++column)
-      canvas.at(column, row) =
-          corners.uniform(column, row, 1) ? corners.mean(column, row) : sampleRoom(column, row);
+      background_.at(column, row) = corners.uniform(column, row, 1)
+                                        ? corners.mean(column, row)
+                                        : sampleRoom(column, row, seen(column, row));
   });
-  return canvas;
+  solids_.reserve(corners.samples.size());
+  for (const Sample& sample : corners.samples) solids_.push_back(Room::isSolid(sample.part));
 }
 
-Sample Painter::traceRobot(const Ray& ray_world, const Eigen::Isometry3d& T_world_robot) const {
-  const Sample sample = robot_.trace(T_world_robot.inverse() * ray_world, T_world_robot);
+bool Painter::solidsNear(int column, int row) const {
+  for (int r = std::max(0, row - 1); r <= std::min(lens_.height(), row + 2); ++r)
+    for (int c = std::max(0, column - 1); c <= std::min(lens_.width(), column + 2); ++c)
+      if (solids_[static_cast<std::size_t>(r) * (lens_.width() + 1) + c]) return true;
+  return false;
+}
+
+Sample Painter::traceRobot(const Eigen::Vector3d& direction, const Exposure& exposure,
+                           std::size_t pose, bool solids) const {
+  const Eigen::Isometry3d& T_robot_camera = exposure.T_robot_camera[pose];
+  const Sample sample =
+      robot_.trace({T_robot_camera.translation(), T_robot_camera.linear() * direction},
+                   exposure.motion.T_world_robot[pose]);
   // The ray's parameter is the same in both frames.
-  if (sample.part >= 0 && room_.distanceToSolids(ray_world) < sample.t) return {};
+  if (solids && sample.part >= 0 && room_.distanceToSolids(rayInWorld(direction)) < sample.t)
+    return {};
   return sample;
 }
 
-Eigen::Array3f Painter::sampleRobot(int column, int row, const Motion& motion,
+Eigen::Array3f Painter::sampleRobot(int column, int row, const Exposure& exposure,
                                     const Eigen::Array3f& behind) const {
+  const bool rests = exposure.motion.T_world_robot.size() == 1;
+  const std::span<const LatticePoint> lattice =
+      rests ? std::span<const LatticePoint>(kFine) : std::span<const LatticePoint>(kQuick);
+  const double place = (row + 0.5) / lens_.height();
+  const bool solids = solidsNear(column, row);
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   int missed = 0;
-  const double place = (row + 0.5) / lens_.height();
-  for (const LatticePoint& p : kLattice) {
-    const Sample sample =
-        traceRobot(rayInWorld(lens_.direction(column, row, p.x, p.y)), motion.at(place, p.moment));
+  for (const LatticePoint& p : lattice) {
+    const Sample sample = traceRobot(lens_.direction(column, row, p.x, p.y), exposure,
+                                     exposure.motion.at(place, p.moment), solids);
     if (sample.part < 0)
       ++missed;
     else
       sum += sample.colour;
   }
-  return (sum + static_cast<float>(missed) * behind) / kSamples;
+  return (sum + static_cast<float>(missed) * behind) / static_cast<float>(lattice.size());
 }
 
 Eigen::Array3f Painter::shaded(int column, int row, const Eigen::Array3f& colour,
@@ -156,7 +210,8 @@ int Painter::blurPixels(const Motion& motion) const {
     const double depth = (T_world_camera_.inverse() * first).z();
     if (depth > 0.05) most = std::max(most, camera_.K(0, 0) * (last - first).norm() / depth);
   }
-  return static_cast<int>(std::ceil(most / 2));
+  const double share = motion.exposure / (motion.exposure + motion.readout);  // of one row
+  return static_cast<int>(std::ceil(most * share / 2));
 }
 
 Region Painter::changed(const Motion& motion) const {
@@ -194,9 +249,12 @@ Region Painter::changed(const Motion& motion) const {
 
 void Painter::paintRobot(Canvas& canvas, const Region& region, const Motion& motion) const {
   if (region.empty()) return;
-  const Corners corners =
-      traceCorners(region, [&](const Ray& ray) { return traceRobot(ray, motion.middle()); });
-  const Blocker blocker = Robot::blocker(motion.middle());
+  const Exposure exposure(motion, T_world_camera_);
+  const Corners corners = traceCorners(region, [&](int column, int row) {
+    const std::size_t pose = motion.at(static_cast<double>(row) / lens_.height(), 0.5);
+    return traceRobot(lens_.corner(column, row), exposure, pose, solidsNear(column, row));
+  });
+  const Blocker blocker = Robot::blocker(motion.T_world_robot[motion.middle()]);
   const int around = 1 + blurPixels(motion);
   forRows(region.top, region.bottom, [&](int row) {
     for (int column = region.left; column < region.right; ++column) {
@@ -207,7 +265,7 @@ void Painter::paintRobot(Canvas& canvas, const Region& region, const Motion& mot
         continue;
       }
       pixel = shaded(column, row, pixel, blocker);
-      if (!uniform) pixel = sampleRobot(column, row, motion, pixel);
+      if (!uniform) pixel = sampleRobot(column, row, exposure, pixel);
     }
   });
 }

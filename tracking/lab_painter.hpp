@@ -38,11 +38,9 @@ struct Motion {
   std::vector<Eigen::Isometry3d> T_world_robot;
   double exposure = 0, readout = 0;  ///< s
 
-  [[nodiscard]] const Eigen::Isometry3d& middle() const {
-    return T_world_robot[T_world_robot.size() / 2];
-  }
-  /// Pose at a moment of one row's exposure; row and moment in 0..1 from first to last.
-  [[nodiscard]] const Eigen::Isometry3d& at(double row, double moment) const;
+  [[nodiscard]] std::size_t middle() const { return T_world_robot.size() / 2; }
+  /// Which pose at a moment of one row's exposure; row and moment in 0..1 from first to last.
+  [[nodiscard]] std::size_t at(double row, double moment) const;
 };
 
 /// Turns rays into pixels. Every pixel is the mean over its own area (and, for the robot, over its
@@ -52,7 +50,7 @@ class Painter {
   Painter(const LabOptions& options, const Room& room, const Robot& robot);
 
   /// All that stands still.
-  [[nodiscard]] Canvas background() const;
+  [[nodiscard]] const Canvas& background() const { return background_; }
   /// Where the robot and its shadow change the picture.
   [[nodiscard]] Region changed(const Motion& motion) const;
   /// Paints the robot and its shadow over the background within a region.
@@ -60,15 +58,19 @@ class Painter {
 
  private:
   struct Corners;
+  struct Exposure;
+  void paintBackground();
   [[nodiscard]] Corners traceCorners(const Region& region,
-                                     const std::function<Sample(const Ray&)>& trace) const;
+                                     const std::function<Sample(int, int)>& trace) const;
   [[nodiscard]] Ray rayInWorld(const Eigen::Vector3d& direction) const {
     return {T_world_camera_.translation(), T_world_camera_.linear() * direction};
   }
-  [[nodiscard]] Sample traceRobot(const Ray& ray_world,
-                                  const Eigen::Isometry3d& T_world_robot) const;
-  [[nodiscard]] Eigen::Array3f sampleRoom(int column, int row) const;
-  [[nodiscard]] Eigen::Array3f sampleRobot(int column, int row, const Motion& motion,
+  /// A solid of the room may be seen in this pixel.
+  [[nodiscard]] bool solidsNear(int column, int row) const;
+  [[nodiscard]] Sample traceRobot(const Eigen::Vector3d& direction, const Exposure& exposure,
+                                  std::size_t pose, bool solids) const;
+  [[nodiscard]] Eigen::Array3f sampleRoom(int column, int row, const Room::Candidates& of) const;
+  [[nodiscard]] Eigen::Array3f sampleRobot(int column, int row, const Exposure& exposure,
                                            const Eigen::Array3f& behind) const;
   [[nodiscard]] Eigen::Array3f shaded(int column, int row, const Eigen::Array3f& colour,
                                       const Blocker& blocker) const;
@@ -79,6 +81,8 @@ class Painter {
   CameraInfo camera_;
   Lens lens_;
   Eigen::Isometry3d T_world_camera_;
+  Canvas background_;
+  std::vector<bool> solids_;  // per corner of a pixel: sees a solid of the room
 };
 
 }  // namespace slamscope::tracking::lab

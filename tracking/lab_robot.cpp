@@ -2,10 +2,13 @@
 #include "tracking/lab_robot.hpp"
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace slamscope::tracking::lab {
 namespace {
 
+constexpr double kTop = 0.19;                             // of all but the tag, m
 constexpr double kBodyRadius = 0.18, kBodyHeight = 0.16;  // as far as light is concerned, m
 constexpr int kTagPart = 1, kWheelPart = 10, kBlockPart = 100;
 
@@ -17,69 +20,103 @@ bool isSonar(const Eigen::Vector3d& p) {
   return std::abs(turn - std::round(turn)) < 0.27;
 }
 
+/// Which face of a block, so that edges between faces are seen as edges: 0..8.
+int faceOf(const Eigen::Vector3d& normal) {
+  if (std::abs(normal.z()) > 0.5) return 8;
+  return static_cast<int>(
+             std::lround(std::atan2(normal.y(), normal.x()) / (std::numbers::pi / 4))) &
+         7;
+}
+
 }  // namespace
 
 Robot::Robot(const LabOptions& options)
     : tag_(options.robot_tag_id, options.robot_tag_size),
       T_tag_robot_(options.T_robot_tag.inverse()) {
-  const Eigen::Vector3d tag = options.T_robot_tag.translation();
-  const Eigen::Array3f orange(38, 104, 232), charcoal(58, 54, 52), steel(140, 138, 134);
+  const Eigen::Array3f orange(30, 112, 240), charcoal(56, 52, 50), steel(150, 148, 144),
+      blue(178, 112, 40);
   blocks_ = {
-      {makeBox({0, 0}, {0.20, 0.14}, 0.05, 0.13, 0, 0.09), orange},
-      {makeBox({0, 0}, {0.21, 0.155}, 0.13, 0.14, 0, 0.09), charcoal},
-      {makeBox({-0.195, 0}, {0.02, 0.07}, 0.03, 0.10), charcoal},
-      {makeBox({0.165, 0}, {0.035, 0.05}, 0.14, 0.185, 0, 0.03), Eigen::Array3f(150, 96, 40)},
+      {makeBox({0, 0}, {0.205, 0.150}, 0.05, 0.13, 0, 0.07), orange},
+      {makeBox({0, 0}, {0.170, 0.118}, 0.13, 0.137, 0, 0.05), charcoal},
+      {makeBox({0.212, 0}, {0.010, 0.085}, 0.04, 0.11), charcoal},
+      {makeBox({-0.212, 0}, {0.010, 0.085}, 0.04, 0.11), charcoal},
+      {makeBox({0.172, 0}, {0.030, 0.042}, 0.13, kTop, 0, 0.02), blue},
   };
-  if (tag.z() > 0.145)
-    blocks_.push_back({makeBox(tag.head<2>(), {0.02, 0.02}, 0.14, tag.z() - 1e-4), steel});
+  const Eigen::Vector3d tag = options.T_robot_tag.translation();
+  if (tag.z() > 0.14)
+    blocks_.push_back({makeBox(tag.head<2>(), {0.02, 0.02}, 0.137, tag.z() - 1e-4), steel});
   for (const double side : {-1.0, 1.0})
     wheels_.push_back(
-        {.centre = {0, side * 0.165, 0.085}, .radius = 0.085, .half_length = 0.022, .axis = 1});
+        {.centre = {0, side * 0.170, 0.085}, .radius = 0.085, .half_length = 0.022, .axis = 1});
+
+  Eigen::Vector3d lower(-0.23, -0.20, 0), upper(0.23, 0.20, kTop);
+  const double half = tag_.halfPaper();
+  for (const auto& [x, y] : {std::pair{-half, -half}, {half, -half}, {half, half}, {-half, half}}) {
+    const Eigen::Vector3d p = options.T_robot_tag * Eigen::Vector3d(x, y, 0);
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  for (int i = 0; i < 8; ++i)
+    bounds_.emplace_back((i & 1) != 0 ? upper.x() : lower.x(), (i & 2) != 0 ? upper.y() : lower.y(),
+                         (i & 4) != 0 ? upper.z() : lower.z());
+  ball_ = {(lower + upper) / 2, 1.001 * (upper - lower).norm() / 2};
+  tag_on_top_ = T_tag_robot_.linear()(2, 2) > 1 - 1e-9 && tag.z() > kTop;
+}
+
+/// What a ray has met so far.
+struct Robot::Surface {
+  double t = std::numeric_limits<double>::infinity();
+  int part = -1;
+  Eigen::Array3f paint = Eigen::Array3f::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+};
+
+void Robot::traceTag(const Ray& ray, Surface& nearest) const {
+  const TagFace::TagHit hit = tag_.intersect(T_tag_robot_ * ray);
+  if (!hit) return;
+  nearest = {.t = hit.t,
+             .part = kTagPart + (hit.ink == TagFace::Ink::white ? 1 : 0),
+             .paint = albedo(hit.ink),
+             .normal = T_tag_robot_.linear().row(2).transpose()};
+}
+
+void Robot::traceBody(const Ray& ray, Surface& nearest) const {
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const Hit hit = intersect(ray, wheels_[i]);
+    if (hit.t >= nearest.t) continue;
+    const bool flank = std::abs(hit.normal.y()) > 0.5;
+    nearest = {.t = hit.t,
+               .part = kWheelPart + 2 * static_cast<int>(i) + (flank ? 1 : 0),
+               .paint = flank ? Eigen::Array3f(130, 130, 130) : Eigen::Array3f(44, 42, 41),
+               .normal = hit.normal};
+  }
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const Hit hit = intersect(ray, blocks_[i].shape);
+    if (hit.t >= nearest.t) continue;
+    const bool sonar = i == 0 && hit.normal.z() < 0.5 && isSonar(ray.at(hit.t));
+    nearest = {.t = hit.t,
+               .part = kBlockPart + 16 * static_cast<int>(i) + (sonar ? 15 : faceOf(hit.normal)),
+               .paint = sonar ? Eigen::Array3f(90, 180, 214) : blocks_[i].albedo,
+               .normal = hit.normal};
+  }
 }
 
 Sample Robot::trace(const Ray& ray_robot, const Eigen::Isometry3d& T_world_robot) const {
-  Sample nearest;
-  Eigen::Array3f paint = Eigen::Array3f::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  if (const TagFace::TagHit hit = tag_.intersect(T_tag_robot_ * ray_robot)) {
-    nearest.t = hit.t;
-    nearest.part = kTagPart + (hit.ink == TagFace::Ink::white ? 1 : 0);
-    paint = albedo(hit.ink);
-    normal = T_tag_robot_.linear().row(2).transpose();
+  if (!ball_.mayBeHit(ray_robot)) return {};
+  Surface surface;
+  traceTag(ray_robot, surface);
+  // Nothing hides a level tag above all the rest.
+  if (surface.part < 0 || !tag_on_top_) traceBody(ray_robot, surface);
+  if (surface.part < 0) return {};
+  const Eigen::Vector3d p = ray_robot.at(surface.t), p_tag = T_tag_robot_ * p;
+  const Light light = openLight(T_world_robot * p, T_world_robot.linear() * surface.normal);
+  Eigen::Array3f colour = surface.paint * tint(light);
+  if (p_tag.z() < -0.005) {
+    // The tag's board keeps light from the deck below it.
+    const double beside = p_tag.head<2>().cwiseAbs().maxCoeff() - tag_.halfPaper();
+    colour *= static_cast<float>(1 - 0.5 / (1 + std::exp(beside / (0.01 - 0.15 * p_tag.z()))));
   }
-  for (std::size_t i = 0; i < wheels_.size(); ++i) {
-    const Hit hit = intersect(ray_robot, wheels_[i]);
-    if (hit.t >= nearest.t) continue;
-    const bool flank = std::abs(hit.normal.y()) > 0.5;
-    nearest.t = hit.t;
-    nearest.part = kWheelPart + 2 * static_cast<int>(i) + (flank ? 1 : 0);
-    paint = flank ? Eigen::Array3f(120, 120, 120) : Eigen::Array3f(40, 39, 38);
-    normal = hit.normal;
-  }
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const Hit hit = intersect(ray_robot, blocks_[i].shape);
-    if (hit.t >= nearest.t) continue;
-    nearest.t = hit.t;
-    normal = hit.normal;
-    const bool sonar = i == 0 && normal.z() < 0.5 && isSonar(ray_robot.at(hit.t));
-    nearest.part = kBlockPart + 16 * static_cast<int>(i) +
-                   (sonar ? 15
-                          : static_cast<int>(std::lround(4 * std::atan2(normal.y(), normal.x()) +
-                                                         4 * normal.z())) &
-                                7);
-    paint = sonar ? Eigen::Array3f(90, 180, 214) : blocks_[i].albedo;
-  }
-  if (nearest.part < 0) return nearest;
-  const Eigen::Vector3d p = ray_robot.at(nearest.t);
-  // The tag's board keeps light from the deck below it.
-  const Eigen::Vector3d p_tag = T_tag_robot_ * p;
-  const double beside = p_tag.head<2>().cwiseAbs().maxCoeff() - tag_.halfPaper();
-  const auto shade = static_cast<float>(
-      p_tag.z() < -0.005 ? 1 - 0.55 / (1 + std::exp(beside / (0.012 + 0.2 * std::abs(p_tag.z()))))
-                         : 1);
-  nearest.colour =
-      paint * shade * tint(openLight(T_world_robot * p, T_world_robot.linear() * normal));
-  return nearest;
+  return {.colour = colour, .part = surface.part, .t = surface.t};
 }
 
 Blocker Robot::blocker(const Eigen::Isometry3d& T_world_robot) {
@@ -87,23 +124,6 @@ Blocker Robot::blocker(const Eigen::Isometry3d& T_world_robot) {
           .radius = kBodyRadius,
           .height = kBodyHeight,
           .contact = 0.045};
-}
-
-std::vector<Eigen::Vector3d> Robot::bounds() const {
-  Eigen::Vector3d lower(-0.23, -0.20, 0), upper(0.23, 0.20, 0.19);
-  const Eigen::Isometry3d T_robot_tag = T_tag_robot_.inverse();
-  for (const double x : {-1.0, 1.0})
-    for (const double y : {-1.0, 1.0}) {
-      const Eigen::Vector3d p =
-          T_robot_tag * Eigen::Vector3d(x * tag_.halfPaper(), y * tag_.halfPaper(), 0);
-      lower = lower.cwiseMin(p);
-      upper = upper.cwiseMax(p);
-    }
-  std::vector<Eigen::Vector3d> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.emplace_back((i & 1) != 0 ? upper.x() : lower.x(), (i & 2) != 0 ? upper.y() : lower.y(),
-                         (i & 4) != 0 ? upper.z() : lower.z());
-  return corners;
 }
 
 }  // namespace slamscope::tracking::lab

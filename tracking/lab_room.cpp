@@ -33,17 +33,20 @@ Room::Room(const LabOptions& options)
   if (!(options.post_radius > 0 && options.post_height > kFootHeight))
     throw std::invalid_argument("posts need a radius and a height above 5 mm");
   for (const LabTag& tag : options.tags)
-    tags_.push_back({TagFace(tag.id, tag.size), tag.T_world_tag.inverse()});
+    tags_.push_back({.face = TagFace(tag.id, tag.size),
+                     .ball = {tag.T_world_tag.translation(), 0.93 * tag.size},
+                     .T_tag_world = tag.T_world_tag.inverse()});
   for (const LabPost& post : options.posts) {
     const Eigen::Vector3d base =
         options.T_world_map * Eigen::Vector3d(post.p_map.x(), post.p_map.y(), 0);
-    const double half = options.post_height / 2;
+    const double half = options.post_height / 2, foot = 2.2 * options.post_radius;
     posts_.push_back({.shaft = {.centre = {base.x(), base.y(), half},
                                 .radius = options.post_radius,
                                 .half_length = half},
                       .foot = {.centre = {base.x(), base.y(), kFootHeight / 2},
-                               .radius = 2.2 * options.post_radius,
-                               .half_length = kFootHeight / 2}});
+                               .radius = foot,
+                               .half_length = kFootHeight / 2},
+                      .ball = {{base.x(), base.y(), half}, 1.001 * std::hypot(half, foot)}});
   }
 }
 
@@ -61,21 +64,37 @@ std::vector<Room::Thing> Room::furniture() {
   return {};
 }
 
-Sample Room::trace(const Ray& ray_world) const {
+Room::Candidates Room::candidates(const Ray& ray_world, double spread) const {
+  const auto pick = [&](const auto& all) {
+    std::vector<std::size_t> picked;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].ball.mayBeHit(ray_world, spread)) picked.push_back(i);
+    return picked;
+  };
+  return {.tags = pick(tags_), .posts = pick(posts_), .things = pick(things_)};
+}
+
+Sample Room::trace(const Ray& ray_world, const Candidates& candidates) const {
   Sample nearest;
   nearest.colour = Eigen::Array3f(178, 176, 172);  // the walls, far away
   traceFloor(ray_world, nearest);
-  traceTags(ray_world, nearest);
-  tracePosts(ray_world, nearest);
-  traceThings(ray_world, nearest);
+  traceTags(ray_world, candidates.tags, nearest);
+  tracePosts(ray_world, candidates.posts, nearest);
+  traceThings(ray_world, candidates.things, nearest);
   return nearest;
+}
+
+bool Room::isSolid(int part) {
+  return part >= kPosts;
 }
 
 double Room::distanceToSolids(const Ray& ray_world) const {
   double t = std::numeric_limits<double>::infinity();
   for (const Post& post : posts_)
-    t = std::min({t, intersect(ray_world, post.shaft).t, intersect(ray_world, post.foot).t});
-  for (const Thing& thing : things_) t = std::min(t, intersect(ray_world, thing.shape).t);
+    if (post.ball.mayBeHit(ray_world))
+      t = std::min({t, intersect(ray_world, post.shaft).t, intersect(ray_world, post.foot).t});
+  for (const Thing& thing : things_)
+    if (thing.ball.mayBeHit(ray_world)) t = std::min(t, intersect(ray_world, thing.shape).t);
   return t;
 }
 
@@ -88,8 +107,8 @@ void Room::traceFloor(const Ray& ray, Sample& nearest) const {
       .colour = floor.albedo * tint(light_.at(p)), .part = floor.tape ? kTape : kFloor, .t = t};
 }
 
-void Room::traceTags(const Ray& ray, Sample& nearest) const {
-  for (std::size_t i = 0; i < tags_.size(); ++i) {
+void Room::traceTags(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const {
+  for (const std::size_t i : of) {
     const TagFace::TagHit hit = tags_[i].face.intersect(tags_[i].T_tag_world * ray);
     // Paper lies on the floor without thickness: on a tie it is the paper that is seen.
     if (!hit || hit.t > nearest.t + 1e-6) continue;
@@ -102,8 +121,8 @@ void Room::traceTags(const Ray& ray, Sample& nearest) const {
   }
 }
 
-void Room::tracePosts(const Ray& ray, Sample& nearest) const {
-  for (std::size_t i = 0; i < posts_.size(); ++i) {
+void Room::tracePosts(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const {
+  for (const std::size_t i : of) {
     const Hit foot = intersect(ray, posts_[i].foot);
     const int first = kPosts + 8 * static_cast<int>(i);
     if (foot.t < nearest.t) {
@@ -129,8 +148,8 @@ void Room::tracePosts(const Ray& ray, Sample& nearest) const {
   }
 }
 
-void Room::traceThings(const Ray& ray, Sample& nearest) const {
-  for (std::size_t i = 0; i < things_.size(); ++i) {
+void Room::traceThings(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const {
+  for (const std::size_t i : of) {
     const Hit hit = intersect(ray, things_[i].shape);
     if (hit.t >= nearest.t) continue;
     nearest = {.colour = things_[i].albedo * tint(openLight(ray.at(hit.t), hit.normal)),

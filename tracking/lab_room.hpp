@@ -27,7 +27,15 @@ class Room {
   /// Throws std::invalid_argument for posts or tags that can't be.
   explicit Room(const LabOptions& options);
 
-  [[nodiscard]] Sample trace(const Ray& ray_world) const;
+  /// What rays near each other may meet besides the floor: indices.
+  struct Candidates {
+    std::vector<std::size_t> tags, posts, things;
+  };
+  /// For rays turned by up to `spread` (rad) from this one.
+  [[nodiscard]] Candidates candidates(const Ray& ray_world, double spread) const;
+  [[nodiscard]] Sample trace(const Ray& ray_world, const Candidates& candidates) const;
+  /// A part that stands on the floor.
+  [[nodiscard]] static bool isSolid(int part);
   /// Distance along the ray to the first solid that stands on the floor (not the floor itself).
   [[nodiscard]] double distanceToSolids(const Ray& ray_world) const;
   [[nodiscard]] const LightMap& light() const { return light_; }
@@ -35,22 +43,25 @@ class Room {
  private:
   struct Post {
     Cylinder shaft, foot;
+    Ball ball;
   };
   struct Thing {
     Prism shape;
+    Ball ball;
     Eigen::Array3f albedo;
   };
   struct Tag {
     TagFace face;
+    Ball ball;
     Eigen::Isometry3d T_tag_world;
   };
   [[nodiscard]] static std::vector<Thing> furniture();
   [[nodiscard]] static LightMap makeLight(const LabOptions& options);
 
   void traceFloor(const Ray& ray, Sample& nearest) const;
-  void traceTags(const Ray& ray, Sample& nearest) const;
-  void tracePosts(const Ray& ray, Sample& nearest) const;
-  void traceThings(const Ray& ray, Sample& nearest) const;
+  void traceTags(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
+  void tracePosts(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
+  void traceThings(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
 
   Floor floor_;
   std::vector<Tag> tags_;

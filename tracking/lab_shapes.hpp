@@ -27,6 +27,20 @@ struct Hit {
   explicit operator bool() const { return t < std::numeric_limits<double>::infinity(); }
 };
 
+/// A ball around something: most rays miss it, and are done with.
+struct Ball {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0;
+
+  /// Whether a ray may hit it that is turned by up to `spread` (rad, small) from this one.
+  [[nodiscard]] bool mayBeHit(const Ray& ray, double spread = 0) const {
+    const Eigen::Vector3d to_centre = centre - ray.origin;
+    const double wide = radius + (spread > 0 ? spread * to_centre.norm() : 0);
+    return to_centre.cross(ray.direction).squaredNorm() <=
+           wide * wide * ray.direction.squaredNorm();
+  }
+};
+
 /// Solid cylinder along one of the coordinate axes (0 x, 1 y, 2 z).
 struct Cylinder {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
