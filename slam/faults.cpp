@@ -16,7 +16,7 @@ constexpr std::string_view kMovedFeature = "moved-feature";
 constexpr FaultEntry kCorrectFilter{{"none", "a correct filter"}, plant<EkfEquations>};
 
 constexpr FaultEntry kWorldFault{{kMovedFeature, "a feature is moved by 0.3 m half-way",
-                                  FaultClass::statistics, 1, FaultBlame::chosen_features},
+                                  FaultKind::statistics, 1, FaultBlame::chosen_features},
                                  plant<EkfEquations>};
 
 struct Catalogue {

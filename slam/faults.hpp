@@ -13,7 +13,7 @@
 namespace slamscope::slam {
 
 /// The least that an audit must find: an exact law broken, or χ² evidence only.
-enum class FaultClass { none, code, statistics };
+enum class FaultKind { none, code, statistics };
 
 /// Whom an audit must name.
 enum class FaultBlame {
@@ -28,7 +28,7 @@ enum class FaultBlame {
 struct FaultDescription {
   std::string_view name;
   std::string_view description;
-  FaultClass fault_class = FaultClass::none;
+  FaultKind kind = FaultKind::none;
   int level = 1;  ///< from which level of the log (L1, L2) it can be found
   FaultBlame blame = FaultBlame::nobody;
   bool code_where_declared = false;  ///< found as code where the log declares R (or Q)

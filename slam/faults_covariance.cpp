@@ -95,18 +95,18 @@ std::unique_ptr<EkfEquations> plantPaperFault(const FaultOptions& options) {
 
 constexpr std::array kCovarianceFaults = {
     FaultEntry{{"paper", "the covariance of certain features grows with every update",
-                FaultClass::code, 1, FaultBlame::chosen_features},
+                FaultKind::code, 1, FaultBlame::chosen_features},
                plantPaperFault},
     FaultEntry{{"cross-not-updated", "covariance of robot and map left out of the update",
-                FaultClass::code, 1},
+                FaultKind::code, 1},
                plant<CrossNotUpdated>},
-    FaultEntry{{"diagonal-only", "only diagonal blocks of the covariance are updated",
-                FaultClass::code, 1},
-               plant<DiagonalOnly>},
+    FaultEntry{
+        {"diagonal-only", "only diagonal blocks of the covariance are updated", FaultKind::code, 1},
+        plant<DiagonalOnly>},
     FaultEntry{{"single-precision", "P computed as (I - K H) P in float and never symmetrised",
-                FaultClass::code, 1},
+                FaultKind::code, 1},
                plant<SinglePrecision>},
-    FaultEntry{{"observed-twice", "one observation is applied twice", FaultClass::code, 2},
+    FaultEntry{{"observed-twice", "one observation is applied twice", FaultKind::code, 2},
                plant<ObservedTwice>},
 };
 

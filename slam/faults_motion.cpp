@@ -91,20 +91,20 @@ class UnrotatedNoise final : public EkfEquations {
 
 constexpr std::array kMotionFaults = {
     FaultEntry{{"no-cross-prediction", "covariance of robot and map is not propagated",
-                FaultClass::code, 2, FaultBlame::nobody, false, "PythonRobotics #972"},
+                FaultKind::code, 2, FaultBlame::nobody, false, "PythonRobotics #972"},
                plant<NoCrossPrediction>},
     FaultEntry{{"motion-jacobian-late", "motion Jacobian taken at the heading after the move",
-                FaultClass::code, 2, FaultBlame::nobody, false, "PythonRobotics #305"},
+                FaultKind::code, 2, FaultBlame::nobody, false, "PythonRobotics #305"},
                plant<LateMotionJacobian>},
     FaultEntry{{"motion-jacobian-swapped", "sine and cosine swapped in the motion Jacobian",
-                FaultClass::code, 2, FaultBlame::jacobian_entry, false, "SLAM-Course-Solutions #5"},
+                FaultKind::code, 2, FaultBlame::jacobian_entry, false, "SLAM-Course-Solutions #5"},
                plant<SwappedMotionJacobian>},
     FaultEntry{
-        {"motion-jacobian-transposed", "P predicted as the transposed F' P F", FaultClass::code, 2},
+        {"motion-jacobian-transposed", "P predicted as the transposed F' P F", FaultKind::code, 2},
         plant<TransposedMotionJacobian>},
-    FaultEntry{{"noise-on-map", "process noise added to features", FaultClass::code, 1},
+    FaultEntry{{"noise-on-map", "process noise added to features", FaultKind::code, 1},
                plant<NoiseOnMap>},
-    FaultEntry{{"noise-unrotated", "process noise not rotated into the map", FaultClass::statistics,
+    FaultEntry{{"noise-unrotated", "process noise not rotated into the map", FaultKind::statistics,
                 2, FaultBlame::nobody, true},
                plant<UnrotatedNoise>},
 };

@@ -98,22 +98,22 @@ class IdentityFeature final : public EkfEquations {
 
 constexpr std::array kObservationFaults = {
     FaultEntry{{"bearing-jacobian-1q", "derivative of the bearing by the heading is -1/q, not -1",
-                FaultClass::code, 2, FaultBlame::nobody, false, "PythonRobotics #255"},
+                FaultKind::code, 2, FaultBlame::nobody, false, "PythonRobotics #255"},
                plantInBearing<BearingJacobianOverQ>},
     FaultEntry{{"bearing-jacobian-sign", "derivative of the bearing by the heading is +1, not -1",
-                FaultClass::code, 2},
+                FaultKind::code, 2},
                plantInBearing<BearingJacobianSign>},
     FaultEntry{{"stale-linearisation", "observation Jacobian at the state before the prediction",
-                FaultClass::code, 2},
+                FaultKind::code, 2},
                plant<StaleLinearisation>},
     FaultEntry{{"wrong-block", "observation Jacobian written to the next feature's columns",
-                FaultClass::code, 2, FaultBlame::written_block},
+                FaultKind::code, 2, FaultBlame::written_block},
                plant<WrongBlock>},
     FaultEntry{{"initialise-uncorrelated", "a new feature has no covariance with robot and map",
-                FaultClass::code, 2, FaultBlame::new_features, false, "mobilerobotics #37"},
+                FaultKind::code, 2, FaultBlame::new_features, false, "mobilerobotics #37"},
                plant<UncorrelatedFeature>},
     FaultEntry{{"initialise-identity", "a new feature has the identity as its covariance",
-                FaultClass::code, 2, FaultBlame::new_features},
+                FaultKind::code, 2, FaultBlame::new_features},
                plant<IdentityFeature>},
 };
 

@@ -121,7 +121,7 @@ TEST(Faults, AreTheTwentyFourOfTheCatalogue) {
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), expected);
   EXPECT_EQ(faultNames().front().name, "none");
   for (const FaultDescription& fault : faultNames().subspan(1)) {
-    EXPECT_NE(fault.fault_class, FaultClass::none) << fault.name;
+    EXPECT_NE(fault.kind, FaultKind::none) << fault.name;
     EXPECT_TRUE(fault.level == 1 || fault.level == 2) << fault.name;
     EXPECT_FALSE(fault.description.empty()) << fault.name;
   }
