@@ -6,9 +6,11 @@ cli = argparse.ArgumentParser(description=__doc__)
 cli.add_argument("--rate", type=float, default=30, help="steps a second; 0: no waiting")
 cli.add_argument("--steps", type=int, default=10**9)
 cli.add_argument("--tcp", metavar="HOST:PORT", help="send there, not to standard output")
+cli.add_argument("--seed", type=int, help="of the simulated world's noise")
 args, wrap = cli.parse_args(), lambda angle: math.remainder(angle, math.tau)
 MAP = {1: (0.9, -0.1), 2: (1.4, 0.6), 3: (1.2, 1.8), 4: (-0.4, 2.3), 7: (-1.3, 1.2)}  # true, m
 DT, V, W, M, R = 1 / 30, 0.25, 0.25, (0.05, 0.1), (0.05, 0.03)  # circle; sigmas of (v, w), (r, b)
+random.seed(args.seed)
 
 mul = lambda A, B: [[sum(a * b for a, b in zip(row, col)) for col in zip(*B)] for row in A]
 def plus(P, at, sigmas):  # P with variances added on its diagonal from `at` on; grows as needed
