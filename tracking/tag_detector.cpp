@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/tag_detector.hpp"
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h11.h>
+#include <apriltag/tagStandard41h12.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "tracking/tag_corners.hpp"
+
+namespace slamscope::tracking {
+namespace {
+
+/// libapriltag puts the origin at the outer corner of the first pixel, OpenCV at its centre.
+constexpr double kHalfPixel = 0.5;
+
+struct Family {
+  const char* name;
+  apriltag_family_t* (*create)();
+  void (*destroy)(apriltag_family_t*);
+};
+
+const Family& familyOf(std::string name) {
+  static constexpr Family kFamilies[] = {
+      {"36h11", tag36h11_create, tag36h11_destroy},
+      {"25h9", tag25h9_create, tag25h9_destroy},
+      {"Standard41h12", tagStandard41h12_create, tagStandard41h12_destroy}};
+  if (name.starts_with("tag")) name.erase(0, 3);
+  for (const Family& family : kFamilies) {
+    if (name == family.name) return family;
+  }
+  if (name == "16h5") {
+    throw std::invalid_argument(
+        "tag family 16h5 is refused: it sees tags where there are none; use 36h11");
+  }
+  throw std::invalid_argument("tag family \"" + name +
+                              "\" is unknown; expected 36h11, 25h9 or Standard41h12");
+}
+
+/// Per axis, for corners as libapriltag gives them (measured: see
+/// tests/tracking/tag_detector_test.cpp).
+double unrefinedSigma(double side_px, double decimate) {
+  return (side_px < 40 ? 0.10 : 0.07) * std::max(1.0, 2.5 * (decimate - 1));
+}
+
+double shortestSide(const std::array<Eigen::Vector2d, 4>& corners) {
+  double side = 1e9;
+  for (std::size_t i = 0; i < 4; ++i) {
+    side = std::min(side, (corners[i] - corners[(i + 1) % 4]).norm());
+  }
+  return side;
+}
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 4> tagCorners(double size_m) {
+  const double h = size_m / 2;
+  return {Eigen::Vector3d(-h, -h, 0), Eigen::Vector3d(h, -h, 0), Eigen::Vector3d(h, h, 0),
+          Eigen::Vector3d(-h, h, 0)};
+}
+
+struct TagDetector::Impl {
+  explicit Impl(TagDetectorOptions given)
+      : options(std::move(given)),
+        kind(familyOf(options.family)),
+        family(kind.create()),
+        detector(apriltag_detector_create()) {
+    apriltag_detector_add_family_bits(detector, family, options.max_hamming);
+    detector->nthreads = std::max(1, options.threads);
+  }
+  ~Impl() {
+    apriltag_detector_destroy(detector);
+    kind.destroy(family);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  ImageView toGrey(const ImageView& image);
+  TagDetection convert(const apriltag_detection_t& found, const ImageView& grey) const;
+
+  TagDetectorOptions options;
+  const Family& kind;
+  apriltag_family_t* family;
+  apriltag_detector_t* detector;
+  cv::Mat grey_picture;
+};
+
+ImageView TagDetector::Impl::toGrey(const ImageView& image) {
+  const bool usable = image.pixels && image.width > 0 && image.height > 0 &&
+                      (image.channels == 1 || image.channels == 3);
+  if (!usable) {
+    throw std::invalid_argument("picture to detect tags in: " + std::to_string(image.width) +
+                                " x " + std::to_string(image.height) + ", " +
+                                std::to_string(image.channels) + " channels");
+  }
+  if (image.channels == 1) return image;
+  const cv::Mat colour(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels),
+                       image.row_bytes);
+  cv::cvtColor(colour, grey_picture, cv::COLOR_BGR2GRAY);
+  ImageView grey(grey_picture.data, image.width, image.height, 1);
+  grey.row_bytes = grey_picture.step;
+  return grey;
+}
+
+TagDetection TagDetector::Impl::convert(const apriltag_detection_t& found,
+                                        const ImageView& grey) const {
+  TagDetection tag;
+  tag.id = found.id;
+  tag.margin = found.decision_margin;
+  tag.hamming = found.hamming;
+  for (std::size_t i = 0; i < 4; ++i) {
+    tag.corners_px[i] = Eigen::Vector2d(found.p[i][0], found.p[i][1]).array() - kHalfPixel;
+  }
+  tag.sigma_px.fill(unrefinedSigma(shortestSide(tag.corners_px), detector->quad_decimate));
+  if (!options.refine) return tag;
+  CornerRefinement refinement;
+  refinement.cells = family->width_at_border;
+  refinement.camera = options.camera ? &*options.camera : nullptr;
+  if (const auto refined = refineCorners(grey, tag.corners_px, refinement)) {
+    tag.corners_px = refined->px;
+    tag.sigma_px = refined->sigma_px;
+    tag.refined = true;
+  }
+  return tag;
+}
+
+TagDetector::TagDetector(TagDetectorOptions options)
+    : impl_(std::make_unique<Impl>(std::move(options))) {}
+TagDetector::~TagDetector() = default;
+TagDetector::TagDetector(TagDetector&&) noexcept = default;
+TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
+
+std::vector<TagDetection> TagDetector::detect(const ImageView& image) {
+  const ImageView grey = impl_->toGrey(image);
+  const double automatic = image.width >= 1280 ? 2 : 1;
+  impl_->detector->quad_decimate =
+      static_cast<float>(impl_->options.quad_decimate.value_or(automatic));
+  image_u8_t input{image.width, image.height, static_cast<int>(grey.row_bytes),
+                   const_cast<std::uint8_t*>(grey.pixels)};
+  zarray_t* found = apriltag_detector_detect(impl_->detector, &input);
+  std::vector<TagDetection> tags;
+  for (int i = 0; i < zarray_size(found); ++i) {
+    apriltag_detection_t* one = nullptr;
+    zarray_get(found, i, &one);
+    if (one->decision_margin < impl_->options.min_margin) continue;
+    tags.push_back(impl_->convert(*one, grey));
+  }
+  apriltag_detections_destroy(found);
+  std::stable_sort(tags.begin(), tags.end(),
+                   [](const TagDetection& a, const TagDetection& b) { return a.id < b.id; });
+  return tags;
+}
+
+}  // namespace slamscope::tracking
