@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/offscreen.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "engine/gpu/readback.hpp"
+#include "engine/render/frame.hpp"
+
+namespace slamscope::engine {
+
+struct Offscreen::Parts {
+  Parts(std::shared_ptr<Gpu> gpu_, int width, int height, int views)
+      : gpu(std::move(gpu_)),
+        frame(gpu->core(), width, height, views),
+        readback(gpu->core(), frame.colour().extent(), frame.colour().layers()) {}
+
+  std::shared_ptr<Gpu> gpu;
+  Frame frame;
+  gpu::Readback readback;
+  FrameStats stats;
+};
+
+Offscreen::Offscreen(std::shared_ptr<Gpu> gpu, int width, int height, int views)
+    : parts_(std::make_unique<Parts>(std::move(gpu), width, height, views)) {}
+Offscreen::~Offscreen() = default;
+
+std::vector<Image> Offscreen::draw(std::span<const View> views, const Scene& scene,
+                                   const RenderOptions& options) {
+  std::vector<Image> pictures;
+  draw(views, scene, options, pictures);
+  return pictures;
+}
+
+void Offscreen::draw(std::span<const View> views, const Scene& scene, const RenderOptions& options,
+                     std::vector<Image>& pictures) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto& commands = parts_->frame.record(views, scene, options);
+  parts_->readback.record(commands, parts_->frame.colour());
+  parts_->frame.submit();
+  parts_->frame.wait();
+
+  const vk::Extent2D extent = parts_->frame.colour().extent();
+  pictures.resize(views.size());
+  for (std::uint32_t i = 0; i < pictures.size(); ++i) {
+    const auto texels = parts_->readback.layer(i);
+    pictures[i].width = static_cast<int>(extent.width);
+    pictures[i].height = static_cast<int>(extent.height);
+    pictures[i].rgba.assign(texels.begin(), texels.end());
+  }
+  parts_->stats = parts_->frame.stats();
+  parts_->stats.cpu_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+const FrameStats& Offscreen::lastStats() const {
+  return parts_->stats;
+}
+
+}  // namespace slamscope::engine

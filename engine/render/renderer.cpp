@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/renderer.hpp"
+
+namespace slamscope::engine {
+
+Renderer::Renderer(const gpu::Core& core, int views)
+    : frame_buffer_(core, sizeof(interop::FrameData), vk::BufferUsageFlagBits::eUniformBuffer,
+                    gpu::MemoryUse::kUpload),
+      frame_set_(core, {{.binding = 0,
+                         .type = vk::DescriptorType::eUniformBuffer,
+                         .stages = vk::ShaderStageFlagBits::eVertex |
+                                   vk::ShaderStageFlagBits::eFragment}}),
+      setup_{.core = core,
+             .frame_layout = frame_set_.layout(),
+             .view_mask = (1U << static_cast<unsigned>(views)) - 1U},
+      background_(setup_),
+      lines_(setup_),
+      arrows_(setup_),
+      cones_(setup_),
+      ellipsoids_(setup_),
+      letter_texture_(std::make_shared<LetterTexture>(core)),
+      labels_(setup_, "labels", letter_texture_),
+      rects_(setup_),
+      texts_(setup_, "texts", letter_texture_) {
+  frame_set_.writeBuffer(0, frame_buffer_.handle());
+}
+
+int Renderer::update(const ViewSet& views, const Scene& scene) {
+  int not_drawn = 0;
+  frame_buffer_.as<interop::FrameData>(1)[0] = views.data();
+  lit_ = views.options().lit;
+  background_.update(views);
+  lines_.update(scene.lines, views, not_drawn);
+  arrows_.update(scene.arrows, views, not_drawn);
+  cones_.update(scene.cones, views, not_drawn);
+  ellipsoids_.update(scene.ellipsoids, views, not_drawn);
+  labels_.update(scene.labels, views, not_drawn);
+  rects_.update(scene.rects, not_drawn);
+  texts_.update(scene.texts, views, not_drawn);
+  letter_texture_->update();
+  labels_.bind();
+  texts_.bind();
+  return not_drawn;
+}
+
+void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
+                      FrameStats& stats) {
+  background_.recordUpload(commands);
+  letter_texture_->recordUpload(commands);
+
+  const vk::RenderingAttachmentInfo colour = {
+      .imageView = target.colour,
+      .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+      .loadOp = vk::AttachmentLoadOp::eClear,
+      .storeOp = vk::AttachmentStoreOp::eStore,
+      .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
+  const vk::RenderingAttachmentInfo depth = {
+      .imageView = target.depth,
+      .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+      .loadOp = vk::AttachmentLoadOp::eClear,
+      .storeOp = vk::AttachmentStoreOp::eDontCare,
+      .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};  // reversed: infinitely far
+  const vk::Rect2D area = {.extent = target.extent};
+  commands.beginRendering({.renderArea = area,
+                           .layerCount = 1,
+                           .viewMask = setup_.view_mask,
+                           .colorAttachmentCount = 1,
+                           .pColorAttachments = &colour,
+                           .pDepthAttachment = &depth});
+  commands.setViewport(0, vk::Viewport{.width = static_cast<float>(target.extent.width),
+                                       .height = static_cast<float>(target.extent.height),
+                                       .maxDepth = 1.0F});
+  commands.setScissor(0, area);
+
+  const FrameContext context = {commands, frame_set_.handle(), lit_, stats};
+  background_.record(context);
+  lines_.record(context);
+  arrows_.record(context);
+  cones_.recordInside(context);
+  ellipsoids_.record(context);
+  cones_.recordEdges(context);
+  labels_.record(context);
+  rects_.record(context);
+  texts_.record(context);
+  commands.endRendering();
+}
+
+}  // namespace slamscope::engine

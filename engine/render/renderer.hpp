@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "engine/render/arrows.hpp"
+#include "engine/render/background.hpp"
+#include "engine/render/cones.hpp"
+#include "engine/render/ellipsoids.hpp"
+#include "engine/render/letters.hpp"
+#include "engine/render/lines.hpp"
+#include "engine/render/rects.hpp"
+
+namespace slamscope::engine {
+
+/// Where to draw: one layer a view.
+struct RenderTarget {
+  vk::ImageView colour;
+  vk::ImageView depth;
+  vk::Extent2D extent;
+};
+
+/// The passes, once, in the order they are drawn.
+class Renderer {
+ public:
+  /// views: 1 or 2. Formats as in gpu::PipelineInfo.
+  Renderer(const gpu::Core& core, int views);
+
+  /// Takes the frame over to memory that the device sees, which must not be drawing. Returns the
+  /// number of glyphs left out because of numbers that are not finite.
+  int update(const ViewSet& views, const Scene& scene);
+  /// Records uploads and the drawing; the target's images are in the layouts of gpu::drawnInto()
+  /// and gpu::depthTested().
+  void record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
+              FrameStats& stats);
+
+ private:
+  gpu::Buffer frame_buffer_;
+  gpu::DescriptorSet frame_set_;
+  PassSetup setup_;
+  bool lit_ = true;
+
+  BackgroundPass background_;
+  LinePass lines_;
+  ArrowPass arrows_;
+  ConePass cones_;
+  EllipsoidPass ellipsoids_;
+  std::shared_ptr<LetterTexture> letter_texture_;
+  LetterPass labels_;
+  RectPass rects_;
+  LetterPass texts_;
+};
+
+}  // namespace slamscope::engine

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/shader_code.hpp"
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace slamscope::engine {
+
+namespace {
+
+// The one place that includes what glslangValidator wrote.
+#include "shaders_generated/arrows_frag.h"
+#include "shaders_generated/arrows_vert.h"
+#include "shaders_generated/background_frag.h"
+#include "shaders_generated/background_vert.h"
+#include "shaders_generated/cones_frag.h"
+#include "shaders_generated/cones_vert.h"
+#include "shaders_generated/ellipsoids_frag.h"
+#include "shaders_generated/ellipsoids_vert.h"
+#include "shaders_generated/interop_echo_comp.h"
+#include "shaders_generated/lines_frag.h"
+#include "shaders_generated/lines_vert.h"
+#include "shaders_generated/rects_frag.h"
+#include "shaders_generated/rects_vert.h"
+#include "shaders_generated/text_frag.h"
+#include "shaders_generated/text_vert.h"
+
+const std::array kShaders = {ShaderCode{"arrows_frag", arrows_frag},
+                             ShaderCode{"arrows_vert", arrows_vert},
+                             ShaderCode{"background_frag", background_frag},
+                             ShaderCode{"background_vert", background_vert},
+                             ShaderCode{"cones_frag", cones_frag},
+                             ShaderCode{"cones_vert", cones_vert},
+                             ShaderCode{"ellipsoids_frag", ellipsoids_frag},
+                             ShaderCode{"ellipsoids_vert", ellipsoids_vert},
+                             ShaderCode{"interop_echo_comp", interop_echo_comp},
+                             ShaderCode{"lines_frag", lines_frag},
+                             ShaderCode{"lines_vert", lines_vert},
+                             ShaderCode{"rects_frag", rects_frag},
+                             ShaderCode{"rects_vert", rects_vert},
+                             ShaderCode{"text_frag", text_frag},
+                             ShaderCode{"text_vert", text_vert}};
+
+}  // namespace
+
+std::span<const ShaderCode> allShaders() {
+  return kShaders;
+}
+
+std::span<const std::uint32_t> shaderCode(std::string_view name) {
+  for (const ShaderCode& shader : kShaders) {
+    if (shader.name == name) return shader.words;
+  }
+  throw std::out_of_range("no shader named " + std::string(name));
+}
+
+}  // namespace slamscope::engine
