@@ -1,4 +1,4 @@
-# Compiles shaders/STEM.STAGE to the header shaders_generated/STEM_STAGE.h in the build tree.
+# Compiles shaders/STEM.STAGE to the header STEM_STAGE.h in the build tree.
 # glslangValidator writes a depfile, so that a changed include is seen.
 find_program(GLSLANG glslangValidator REQUIRED)
 set(SLAMSCOPE_SHADER_DIR ${CMAKE_BINARY_DIR}/shaders_generated)
@@ -21,5 +21,5 @@ function(slamscope_shaders target)
     list(APPEND headers ${header})
   endforeach()
   target_sources(${target} PRIVATE ${headers})
-  target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR})
+  target_include_directories(${target} PRIVATE ${SLAMSCOPE_SHADER_DIR})
 endfunction()

@@ -11,21 +11,21 @@ namespace slamscope::engine {
 namespace {
 
 // The one place that includes what glslangValidator wrote.
-#include "shaders_generated/arrows_frag.h"
-#include "shaders_generated/arrows_vert.h"
-#include "shaders_generated/background_frag.h"
-#include "shaders_generated/background_vert.h"
-#include "shaders_generated/cones_frag.h"
-#include "shaders_generated/cones_vert.h"
-#include "shaders_generated/ellipsoids_frag.h"
-#include "shaders_generated/ellipsoids_vert.h"
-#include "shaders_generated/interop_echo_comp.h"
-#include "shaders_generated/lines_frag.h"
-#include "shaders_generated/lines_vert.h"
-#include "shaders_generated/rects_frag.h"
-#include "shaders_generated/rects_vert.h"
-#include "shaders_generated/text_frag.h"
-#include "shaders_generated/text_vert.h"
+#include "arrows_frag.h"
+#include "arrows_vert.h"
+#include "background_frag.h"
+#include "background_vert.h"
+#include "cones_frag.h"
+#include "cones_vert.h"
+#include "ellipsoids_frag.h"
+#include "ellipsoids_vert.h"
+#include "interop_echo_comp.h"
+#include "lines_frag.h"
+#include "lines_vert.h"
+#include "rects_frag.h"
+#include "rects_vert.h"
+#include "text_frag.h"
+#include "text_vert.h"
 
 const std::array kShaders = {ShaderCode{"arrows_frag", arrows_frag},
                              ShaderCode{"arrows_vert", arrows_vert},
