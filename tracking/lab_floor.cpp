@@ -84,7 +84,7 @@ Floor::Sample Floor::at(const Eigen::Vector2d& p_world) const {
   const float shade = 1 + 0.050F * (2 * random01(tile ^ 3) - 1) + 0.085F * value;
   const float warmth = 0.018F * (2 * random01(tile ^ 4) - 1) + 0.02F * value;
   const auto joint = static_cast<float>(std::max(0.0, 1 - from_joint / (2 * kJoint)));
-  const Eigen::Array3f base(168, 170, 166);
+  const Eigen::Array3f base(174, 177, 174);
   return {.albedo = base * Eigen::Array3f(1 - warmth, 1, 1 + warmth) * (shade - 0.28F * joint)};
 }
 

@@ -54,9 +54,10 @@ Light openLight(const Eigen::Vector3d& p_world, const Eigen::Vector3d& normal) {
     // Cosine over distance squared, as one over the same in the middle of the room.
     const double here = std::max(0.0, normal.dot(to_lamp)) / (square * std::sqrt(square));
     const double there = kLamps[i].p_world.z() / (middle * middle * middle);
-    // Light also comes back from the walls: falloff is gentler than a lone lamp's.
+    // Half of it comes back from the walls, from everywhere, and the rest falls off more gently
+    // than a lone lamp's: no sheet of paper may be so bright that the sensor saturates.
     light[static_cast<int>(i) + 1] =
-        kLamps[i].share * static_cast<float>(std::sqrt(here / there) * 0.6 + here / there * 0.4);
+        kLamps[i].share * static_cast<float>(0.5 + 0.5 * std::sqrt(here / there));
   }
   return light;
 }
