@@ -75,7 +75,7 @@ Lens::Lens(const CameraInfo& camera) : width_(camera.width), height_(camera.heig
   for (std::size_t i = 0; i < back.size(); ++i)
     if (!((back[i] - wanted[i]).norm() < 1e-3))
       throw std::invalid_argument(
-          "the lab can't see through this lens: its distortion has no inverse at pixel " +
+          "the lab can't see through this lens: OpenCV finds no inverse at pixel " +
           std::to_string(wanted[i].x()) + ", " + std::to_string(wanted[i].y()));
 }
 

@@ -9,7 +9,7 @@
 namespace slamscope::tracking::lab {
 
 /// Directions of a camera's rays, through OpenCV's undistortion at every corner of every pixel and
-/// linear in between (off by less than 1e-3 px for any lens that fits a picture).
+/// linear in between (off by about 1e-3 px where distortion is strong).
 class Lens {
  public:
   /// Throws std::invalid_argument: no size, skew (OpenCV knows none), a wrong number of

@@ -27,12 +27,16 @@ class FrameSources : public testing::Test {
   /// A picture of one grey value.
   void writePicture(const std::string& name, int value, int width = 8, int height = 6) const {
     std::ofstream out(directory_ / name, std::ios::binary);
-    out << "P6\n" << width << ' ' << height << "\n255\n" << std::string(3 * width * height, static_cast<char>(value));
+    out << "P6\n"
+        << width << ' ' << height << "\n255\n"
+        << std::string(3 * width * height, static_cast<char>(value));
   }
   void writeText(const std::string& name, const std::string& text) const {
     std::ofstream(directory_ / name) << text;
   }
-  [[nodiscard]] std::string at(const std::string& name) const { return (directory_ / name).string(); }
+  [[nodiscard]] std::string at(const std::string& name) const {
+    return (directory_ / name).string();
+  }
 
   fs::path directory_;
 };
@@ -74,7 +78,8 @@ TEST_F(FrameSources, DirectoryComesInNaturalOrder) {
   const Frame last = *source->next();
   EXPECT_EQ(last.bgr[0], 10);
   EXPECT_EQ(last.sequence, 2U);
-  EXPECT_EQ(last.time, std::chrono::nanoseconds(66666667)) << "30 frames a second where nothing is said";
+  EXPECT_EQ(last.time, std::chrono::nanoseconds(66666667))
+      << "30 frames a second where nothing is said";
   EXPECT_FALSE(source->next());
 }
 
@@ -108,8 +113,10 @@ TEST_F(FrameSources, PatternTakesItsNumbersOnly) {
   EXPECT_EQ(nextValue(*source), 12);
   EXPECT_EQ(nextValue(*source), -1);
   EXPECT_EQ(openFrameSource(at("img-%d.ppm"))->count(), 3U);
-  expectSays(errorOf([&] { openFrameSource(at("none-%d.ppm")); }), {"none-%d.ppm", "no picture"});
-  expectSays(errorOf([&] { openFrameSource(at("img-%s.ppm")); }), {"img-%s.ppm", "frame-%05d.png"});
+  expectSays(errorOf([&] { (void)openFrameSource(at("none-%d.ppm")); }),
+             {"none-%d.ppm", "no picture"});
+  expectSays(errorOf([&] { (void)openFrameSource(at("img-%s.ppm")); }),
+             {"img-%s.ppm", "frame-%05d.png"});
 }
 
 TEST_F(FrameSources, OneImageIsOneFrame) {
@@ -124,7 +131,9 @@ void writeVideo(const fs::path& file, int frames) {
   std::ofstream out(file, std::ios::binary);
   out << "YUV4MPEG2 W16 H16 F25:1 Ip A1:1 C444\n";
   for (int k = 0; k < frames; ++k)
-    out << "FRAME\n" << std::string(256, static_cast<char>(60 + 20 * k)) << std::string(512, static_cast<char>(128));
+    out << "FRAME\n"
+        << std::string(256, static_cast<char>(60 + 20 * k))
+        << std::string(512, static_cast<char>(128));
 }
 
 TEST_F(FrameSources, VideoKeepsItsOwnClock) {
@@ -149,11 +158,13 @@ TEST_F(FrameSources, VideoKeepsItsOwnClock) {
 }
 
 TEST_F(FrameSources, SayWhatIsWrongInOneLine) {
-  expectSays(errorOf([&] { openFrameSource(at("missing.mp4")); }), {"missing.mp4", "no such file"});
-  expectSays(errorOf([&] { openFrameSource(at("missing")); }), {"missing", "no such file"});
-  expectSays(errorOf([&] { openFrameSource(directory_.string()); }), {directory_.string(), "no picture"});
+  expectSays(errorOf([&] { (void)openFrameSource(at("missing.mp4")); }),
+             {"missing.mp4", "no such file"});
+  expectSays(errorOf([&] { (void)openFrameSource(at("missing")); }), {"missing", "no such file"});
+  expectSays(errorOf([&] { (void)openFrameSource(directory_.string()); }),
+             {directory_.string(), "no picture"});
   writeText("text.mp4", "this is no video");
-  expectSays(errorOf([&] { openFrameSource(at("text.mp4")); }), {"text.mp4", "video"});
+  expectSays(errorOf([&] { (void)openFrameSource(at("text.mp4")); }), {"text.mp4", "video"});
 
   writePicture("1.ppm", 1);
   writePicture("2.ppm", 2, 9, 6);
@@ -168,7 +179,7 @@ TEST_F(FrameSources, BadStampsAreNamedWithTheirLine) {
   writePicture("a.ppm", 1);
   const auto error = [&](const std::string& text) {
     writeText("stamps.csv", text);
-    return errorOf([&] { openFrameSource(directory_.string()); });
+    return errorOf([&] { (void)openFrameSource(directory_.string()); });
   };
   expectSays(error("a.ppm,1\n"), {"stamps.csv, line 1", "file,time_s"});
   expectSays(error("file,time_s\na.ppm,soon\n"), {"line 2", "'soon'", "number"});
@@ -191,9 +202,11 @@ TEST(Stamps, NaturalOrderReadsNumbersAsNumbers) {
 }
 
 TEST(V4l2, SaysWhatIsNoCamera) {
-  expectSays(errorOf([] { openFrameSource("/dev/video4711"); }), {"/dev/video4711", "no such device"});
-  expectSays(errorOf([] { openFrameSource("4711"); }), {"/dev/video4711", "no such device"});
-  expectSays(errorOf([] { openFrameSource("/dev/null"); }), {"/dev/null", "not a capture device"});
+  expectSays(errorOf([] { (void)openFrameSource("/dev/video4711"); }),
+             {"/dev/video4711", "no such device"});
+  expectSays(errorOf([] { (void)openFrameSource("4711"); }), {"/dev/video4711", "no such device"});
+  expectSays(errorOf([] { (void)openFrameSource("/dev/null"); }),
+             {"/dev/null", "not a capture device"});
 }
 
 TEST(V4l2, StampsAreMovedToMidExposure) {

@@ -30,7 +30,8 @@ class LabTruth : public testing::Test {
   ~LabTruth() override { std::filesystem::remove(file_); }
 
   LabOptions options_ = defaultLab();
-  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) / "slamscope_lab_truth.json";
+  std::filesystem::path file_ =
+      std::filesystem::path(testing::TempDir()) / "slamscope_lab_truth.json";
   Json truth_;
 };
 
