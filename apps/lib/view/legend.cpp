@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "apps/lib/view/legend.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/scene/clip.hpp"
+#include "engine/scene/label_placement.hpp"
+#include "engine/scene/text_layout.hpp"
+
+namespace slamscope::apps {
+namespace {
+
+constexpr double kTextPx = 14.0;
+constexpr double kMarginPx = 10.0;
+constexpr double kPaddingPx = 7.0;
+constexpr double kRowPx = 19.0;
+constexpr double kSwatchPx = 12.0;
+constexpr engine::Rgba kPanel{0.04F, 0.05F, 0.07F, 0.66F};
+constexpr engine::Rgba kText{0.96F, 0.96F, 0.96F, 1.0F};
+
+template <typename... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[160];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+/// A length with a unit that suits it.
+std::string lengthText(double metres) {
+  if (metres >= 1.0) return format("%.3g m", metres);
+  if (metres >= 0.01) return format("%.3g cm", 100.0 * metres);
+  return format("%.3g mm", 1000.0 * metres);
+}
+
+struct Row {
+  engine::Rgba swatch{0.0F, 0.0F, 0.0F, 0.0F};
+  std::string text;
+};
+
+std::string axisText(const slam::AxisScale& axis) {
+  switch (axis.axis) {
+    case slam::Axis::eigenvalue:
+      return format("semi-axis = λ × gain %g", axis.gain);
+    case slam::Axis::log:
+      return format("semi-axis = log10(1 + %gσ / 1 mm) × 10 cm", axis.k) +
+             (axis.gain == 1.0 ? "" : format(" × gain %g", axis.gain));
+    case slam::Axis::sigma:
+      break;
+  }
+  return format("semi-axis = %gσ", axis.k) +
+         (axis.gain == 1.0 ? " in true length" : format(" × gain %g", axis.gain));
+}
+
+std::vector<Row> rowsOf(const Legend& legend) {
+  std::vector<Row> rows{{colour::kRobot, "robot and its path"}, {colour::kFeature, "features"}};
+  if (legend.covariance_rings) {
+    rows.push_back({colour::kFeature, format("ring: %gσ of the position", legend.axis.k)});
+  }
+  const bool three = legend.mode == slam::PairMode::min_mean_max;
+  rows.push_back({colour::kEllipsoid, std::string(three ? "least, mean, greatest" : "relative") +
+                                          " covariance, " + axisText(legend.axis)});
+  if (legend.clusters > 0) {
+    rows.push_back({{}, format("%d clusters, cut at ", legend.clusters) +
+                            lengthText(legend.cluster_cut) +
+                            (legend.automatic_cut ? " (automatic)" : "")});
+    rows.back().swatch.a = 0.0F;
+  }
+  return rows;
+}
+
+/// What the scale bar of `length` (m of the map) stands for.
+std::string barText(const Legend& legend, double length) {
+  std::string text = lengthText(length);
+  const double sigma = std::sqrt(eigenvalueOfLength(legend.axis, length));
+  if (legend.axis.axis != slam::Axis::sigma || legend.axis.gain != 1.0) {
+    text += " of floor; as a semi-axis σ = " + lengthText(sigma);
+  } else {
+    text += format(" of floor = %gσ for σ = ", legend.axis.k) + lengthText(sigma);
+  }
+  if (legend.map_scale != 1.0) text += format("   (map drawn at 1:%.3g)", 1.0 / legend.map_scale);
+  return text;
+}
+
+}  // namespace
+
+double roundLength(double length) {
+  const double decade = std::pow(10.0, std::floor(std::log10(length)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * decade <= length * (1.0 + 1e-12)) return step * decade;
+  }
+  return decade;
+}
+
+double eigenvalueOfLength(const slam::AxisScale& axis, double length) {
+  const auto square = [](double value) { return value * value; };
+  switch (axis.axis) {
+    case slam::Axis::eigenvalue:
+      return length / axis.gain;
+    case slam::Axis::log:
+      return square(1e-3 * (std::pow(10.0, length / (0.1 * axis.gain)) - 1.0) / axis.k);
+    case slam::Axis::sigma:
+      break;
+  }
+  return square(length / (axis.gain * axis.k));
+}
+
+void addStatus(engine::Scene& scene, const std::vector<std::string>& lines,
+               engine::FontAtlas& fonts) {
+  double width = 0.0;
+  double y = kMarginPx + kPaddingPx;
+  for (const std::string& line : lines) {
+    width = std::max(width, engine::measureText(fonts, line, kTextPx).width_px);
+    scene.texts.push_back({.position_px = {kMarginPx + kPaddingPx, y},
+                           .text = line,
+                           .height_px = kTextPx,
+                           .colour = kText});
+    y += kRowPx;
+  }
+  scene.rects.push_back({.min_px = {kMarginPx, kMarginPx},
+                         .max_px = {kMarginPx + width + 2.0 * kPaddingPx, y + kPaddingPx - 2.0},
+                         .colour = kPanel});
+}
+
+void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole& camera,
+               engine::FontAtlas& fonts) {
+  const std::vector<Row> rows = rowsOf(legend);
+  const bool bar = legend.px_per_m > 0.0;
+  const double text_x = kMarginPx + kPaddingPx + kSwatchPx + 8.0;
+  const double height =
+      kRowPx * static_cast<double>(rows.size()) + (bar ? kRowPx + 12.0 : 0.0) + 2.0 * kPaddingPx;
+  const double top = camera.height - kMarginPx - height;
+  double y = top + kPaddingPx;
+  double right = text_x;
+  const auto addText = [&](const std::string& text, double x) {
+    scene.texts.push_back(
+        {.position_px = {x, y}, .text = text, .height_px = kTextPx, .colour = kText});
+    right = std::max(right, x + engine::measureText(fonts, text, kTextPx).width_px);
+  };
+  const std::size_t panel = scene.rects.size();
+  scene.rects.push_back({});
+  for (const Row& row : rows) {
+    const Eigen::Vector2d corner(kMarginPx + kPaddingPx, y + 2.0);
+    scene.rects.push_back({.min_px = corner,
+                           .max_px = corner + Eigen::Vector2d::Constant(kSwatchPx),
+                           .colour = row.swatch});
+    addText(row.text, text_x);
+    y += kRowPx;
+  }
+  if (bar) {
+    const double map_metre_px = legend.px_per_m * legend.map_scale;
+    const double length = roundLength(220.0 / map_metre_px);
+    const double bar_px = length * map_metre_px;
+    const Eigen::Vector2d from(kMarginPx + kPaddingPx, y + 5.0);
+    scene.rects.push_back(
+        {.min_px = from, .max_px = from + Eigen::Vector2d(bar_px, 4.0), .colour = kText});
+    right = std::max(right, from.x() + bar_px);
+    y += 12.0;
+    addText(barText(legend, length), kMarginPx + kPaddingPx);
+  }
+  scene.rects[panel] = {.min_px = {kMarginPx, top},
+                        .max_px = {right + kPaddingPx, top + height},
+                        .colour = kPanel};
+}
+
+void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAtlas& fonts) {
+  std::vector<engine::PixelBox> obstacles;
+  const auto pixel = [&view](const Eigen::Vector3d& p_scene) -> std::optional<Eigen::Vector2d> {
+    const Eigen::Vector3d p_eye = view.T_eye_scene * p_scene;
+    if (p_eye.z() < 0.05) return std::nullopt;
+    return engine::project(view.camera, p_eye);
+  };
+  for (const engine::Cone& cone : scene.cones) {
+    const auto tip = pixel(cone.tip);
+    const auto rim = pixel(cone.tip + cone.height * Eigen::Vector3d::UnitZ());
+    const auto side = pixel(cone.tip + Eigen::Vector3d(cone.radius, 0.0, cone.height));
+    if (!tip || !rim || !side) continue;
+    const Eigen::Vector2d radius = Eigen::Vector2d::Constant((*side - *rim).norm());
+    obstacles.push_back({.min_px = tip->cwiseMin(*rim - radius), .max_px = tip->cwiseMax(*rim + radius)});
+  }
+  for (const engine::ScreenRect& rect : scene.rects) obstacles.push_back({rect.min_px, rect.max_px});
+
+  std::vector<engine::LabelRequest> requests;
+  std::vector<engine::Label> in_view;
+  for (engine::Label& label : scene.labels) {
+    const auto anchor = pixel(label.anchor);
+    if (!anchor) continue;
+    const engine::TextExtent extent = engine::measureText(fonts, label.text, label.height_px);
+    requests.push_back({.anchor_px = *anchor, .size_px = {extent.width_px, extent.height_px}});
+    in_view.push_back(std::move(label));
+  }
+  const engine::PixelBox picture{
+      .min_px = Eigen::Vector2d::Zero(),
+      .max_px = Eigen::Vector2d(view.camera.width, view.camera.height)};
+  const auto offsets = engine::placeLabels(requests, obstacles, {.picture = picture});
+  scene.labels.clear();
+  for (std::size_t k = 0; k < in_view.size(); ++k) {
+    if (!offsets[k]) continue;
+    in_view[k].offset_px = *offsets[k];
+    scene.labels.push_back(std::move(in_view[k]));
+  }
+}
+
+}  // namespace slamscope::apps

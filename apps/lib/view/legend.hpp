@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/lib/view/scene_builder.hpp"
+#include "engine/scene/font_atlas.hpp"
+#include "engine/scene/glyphs.hpp"
+#include "engine/scene/view.hpp"
+
+namespace slamscope::apps {
+
+/// What the legend says of the glyphs and their scale.
+struct Legend {
+  slam::PairMode mode = slam::PairMode::all;
+  slam::AxisScale axis;
+  double map_scale = 1.0;
+  bool covariance_rings = false;
+  int clusters = 0;          ///< 0: not shown
+  double cluster_cut = 0.0;  ///< m
+  bool automatic_cut = true;
+  double px_per_m = 0.0;  ///< of the scene at the middle of the map; 0: no scale bar
+};
+
+/// Puts lines of text on a dark panel in the picture's upper left corner.
+void addStatus(engine::Scene& scene, const std::vector<std::string>& lines,
+               engine::FontAtlas& fonts);
+
+/// Puts the legend into the picture's lower left corner: what each glyph is, how long its axes are,
+/// and a bar of a round length with what it stands for.
+void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole& camera,
+               engine::FontAtlas& fonts);
+
+/// Puts feature labels where they cover neither their cones nor each other; those without a free
+/// place are left out.
+void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAtlas& fonts);
+
+/// Eigenvalue (m²) whose semi-axis is drawn `length` m long: the inverse of AxisScale::semiAxis.
+[[nodiscard]] double eigenvalueOfLength(const slam::AxisScale& axis, double length);
+
+/// The largest of 1, 2, 5 × 10^k that is not above `length` (> 0).
+[[nodiscard]] double roundLength(double length);
+
+}  // namespace slamscope::apps

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "apps/lib/view/picture_output.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <regex>
+#include <stdexcept>
+
+namespace slamscope::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+cv::Mat toBgr(const engine::Image& picture) {
+  const cv::Mat rgba(picture.height, picture.width, CV_8UC4,
+                     const_cast<std::uint8_t*>(picture.rgba.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgba, bgr, cv::COLOR_RGBA2BGR);
+  return bgr;
+}
+
+void requireFolder(const fs::path& target) {
+  const fs::path folder = target.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder)) {
+    throw std::runtime_error(target.string() + ": the folder " + folder.string() +
+                             " does not exist; make it first");
+  }
+}
+
+/// `name-%05d.png` split at its number.
+class NumberedPngs : public PictureOutput {
+ public:
+  NumberedPngs(std::string before, int digits, std::string after)
+      : before_(std::move(before)), after_(std::move(after)), digits_(digits) {}
+
+  void write(const engine::Image& picture) override {
+    std::string number = std::to_string(next_++);
+    const auto digits = static_cast<std::size_t>(digits_);
+    if (number.size() < digits) number.insert(0, digits - number.size(), '0');
+    writePng(before_ + number + after_, picture);
+  }
+  void finish() override {}
+
+ private:
+  std::string before_, after_;
+  int digits_;
+  long next_ = 0;
+};
+
+class Video : public PictureOutput {
+ public:
+  Video(fs::path target, double frames_per_second)
+      : target_(std::move(target)), partial_(target_), frames_per_second_(frames_per_second) {
+    partial_.replace_filename("." + target_.stem().string() + ".partial.mp4");
+  }
+  Video(const Video&) = delete;
+  Video& operator=(const Video&) = delete;
+  ~Video() override {
+    writer_.release();
+    std::error_code ignored;
+    fs::remove(partial_, ignored);
+  }
+
+  void write(const engine::Image& picture) override {
+    if (!writer_.isOpened()) open(picture);
+    if (picture.width != size_.width || picture.height != size_.height) {
+      throw std::runtime_error(target_.string() + ": a video's pictures have one size");
+    }
+    writer_.write(toBgr(picture));
+  }
+
+  void finish() override {
+    if (!writer_.isOpened()) return;
+    writer_.release();
+    fs::rename(partial_, target_);
+  }
+
+ private:
+  void open(const engine::Image& picture) {
+    size_ = {picture.width, picture.height};
+    if (size_.width % 2 != 0 || size_.height % 2 != 0) {
+      throw std::runtime_error(target_.string() + ": a video needs an even width and height, not " +
+                               std::to_string(size_.width) + " x " + std::to_string(size_.height) +
+                               "; choose another --size");
+    }
+    // H.264 plays everywhere; MPEG-4 part 2 where this build of FFmpeg has no encoder for it.
+    for (const int code : {cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
+                           cv::VideoWriter::fourcc('m', 'p', '4', 'v')}) {
+      if (writer_.open(partial_.string(), cv::CAP_FFMPEG, code, frames_per_second_, size_)) return;
+    }
+    throw std::runtime_error(target_.string() + ": can't be written as a video");
+  }
+
+  fs::path target_, partial_;
+  double frames_per_second_;
+  cv::Size size_;
+  cv::VideoWriter writer_;
+};
+
+}  // namespace
+
+std::unique_ptr<PictureOutput> openPictureOutput(const fs::path& target, double frames_per_second) {
+  requireFolder(target);
+  const std::string name = target.string();
+  if (target.extension() == ".mp4") return std::make_unique<Video>(target, frames_per_second);
+  static const std::regex kNumbered(R"(([^%]*)%0?(\d*)d([^%]*\.png))");
+  std::smatch parts;
+  if (std::regex_match(name, parts, kNumbered)) {
+    const int digits = parts[2].length() > 0 ? std::stoi(parts[2]) : 1;
+    return std::make_unique<NumberedPngs>(parts[1], std::clamp(digits, 1, 12), parts[3]);
+  }
+  throw std::runtime_error(name + ": an output is NAME.mp4 or NAME-%05d.png");
+}
+
+void writePng(const fs::path& file, const engine::Image& picture) {
+  requireFolder(file);
+  fs::path partial = file;
+  partial.replace_filename("." + file.stem().string() + ".partial.png");
+  // The lowest compression: a frame's time matters more than a third of its bytes.
+  bool written = false;
+  try {
+    written = cv::imwrite(partial.string(), toBgr(picture), {cv::IMWRITE_PNG_COMPRESSION, 1});
+  } catch (const cv::Exception&) {
+    written = false;
+  }
+  if (!written) throw std::runtime_error(file.string() + ": can't be written");
+  fs::rename(partial, file);
+}
+
+engine::Image sideBySide(const engine::Image& left, const engine::Image& right, int gap_px) {
+  if (left.height != right.height) throw std::invalid_argument("pictures of different height");
+  engine::Image both;
+  both.width = left.width + gap_px + right.width;
+  both.height = left.height;
+  both.rgba.assign(static_cast<std::size_t>(both.width) * static_cast<std::size_t>(both.height) * 4,
+                   255);
+  const auto place = [&both](const engine::Image& source, int x) {
+    for (int row = 0; row < source.height; ++row) {
+      std::copy_n(source.rgba.begin() + std::ptrdiff_t{row} * source.width * 4,
+                  std::ptrdiff_t{source.width} * 4,
+                  both.rgba.begin() + (std::ptrdiff_t{row} * both.width + x) * 4);
+    }
+  };
+  place(left, 0);
+  place(right, left.width + gap_px);
+  return both;
+}
+
+}  // namespace slamscope::apps

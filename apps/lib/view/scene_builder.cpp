@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "apps/lib/view/scene_builder.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace slamscope::apps {
+namespace {
+
+/// Builds one scene; holds what every part of it needs.
+class SceneBuilder {
+ public:
+  SceneBuilder(const slam::Snapshot& snapshot, const SceneStyle& style)
+      : snapshot_(snapshot), style_(style) {}
+
+  void addRobot(const PathTrace& path) {
+    engine::Polyline trace{.points = {}, .width_px = 2.5, .colour = colour::kRobot};
+    for (const Eigen::Vector2d& point : path.points()) trace.points.push_back(onFloor(point));
+    if (trace.points.size() > 1) scene_.lines.push_back(std::move(trace));
+
+    const Eigen::Vector3d position = onFloor(snapshot_.pose.head<2>());
+    scene_.cones.push_back(cone(position, colour::kRobot));
+    scene_.arrows.push_back({.origin = position,
+                             .heading = snapshot_.pose.z(),
+                             .length = style_.arrow_length,
+                             .width = 0.36 * style_.arrow_length,
+                             .colour = colour::kHeading});
+    if (style_.covariance_rings) addRing(snapshot_.pose.head<2>(), 0, colour::kRobot);
+  }
+
+  void addFeatures() {
+    for (int k = 0; k < snapshot_.featureCount(); ++k) {
+      const Eigen::Vector2d& feature = snapshot_.features[static_cast<std::size_t>(k)];
+      scene_.cones.push_back(cone(onFloor(feature), colour::kFeature));
+      if (style_.covariance_rings) addRing(feature, slam::Snapshot::row(k), colour::kFeature);
+      if (!style_.labels) continue;
+      scene_.labels.push_back({.anchor = onFloor(feature),
+                               .text = std::to_string(snapshot_.ids[static_cast<std::size_t>(k)]),
+                               .colour = {1.0F, 1.0F, 1.0F, 1.0F}});
+    }
+  }
+
+  void addPair(const slam::FeaturePair& pair) {
+    const Eigen::Vector3d from = onFloor(snapshot_.features[static_cast<std::size_t>(pair.i)]);
+    const Eigen::Vector3d to = onFloor(snapshot_.features[static_cast<std::size_t>(pair.j)]);
+    addLine(from, to);
+    scene_.ellipsoids.push_back(relativeEllipsoid(pair.P_d, 0.5 * (from + to), style_));
+  }
+
+  void addClusterPair(const slam::ClusterPair& pair) {
+    const Eigen::Vector3d from = onFloor(pair.centroid_a);
+    const Eigen::Vector3d to = onFloor(pair.centroid_b);
+    addLine(from, to);
+    const Eigen::Vector3d middle = 0.5 * (from + to);
+    engine::Ellipsoid mean = relativeEllipsoid(pair.mean, middle, style_);
+    engine::Ellipsoid minimum = relativeEllipsoid(pair.minimum.P_d, middle, style_);
+    engine::Ellipsoid maximum = relativeEllipsoid(pair.maximum.P_d, middle, style_);
+    constexpr double kGap = 1.08;  // of the touching distance
+    minimum.centre -= kGap * (reach(mean) + reach(minimum)) * style_.viewer_up;
+    maximum.centre += kGap * (reach(mean) + reach(maximum)) * style_.viewer_up;
+    scene_.ellipsoids.insert(scene_.ellipsoids.end(), {minimum, mean, maximum});
+  }
+
+  [[nodiscard]] engine::Scene take() { return std::move(scene_); }
+
+ private:
+  [[nodiscard]] Eigen::Vector3d onFloor(const Eigen::Vector2d& p_map) const {
+    return {style_.map_scale * p_map.x(), style_.map_scale * p_map.y(), 0.0};
+  }
+  [[nodiscard]] engine::Cone cone(const Eigen::Vector3d& tip, const engine::Rgba& colour) const {
+    return {.tip = tip,
+            .height = style_.cone_height,
+            .radius = style_.cone_radius,
+            .colour = colour};
+  }
+  /// Half the ellipsoid's height as the viewer sees it.
+  [[nodiscard]] double reach(const engine::Ellipsoid& ellipsoid) const {
+    return (ellipsoid.axes.transpose() * style_.viewer_up).norm();
+  }
+  void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    scene_.lines.push_back(
+        {.points = {from, to}, .width_px = 1.2, .colour = colour::kPair});
+  }
+
+  /// The k-sigma ellipse of the 2×2 block at `row`, as an outline on the floor.
+  void addRing(const Eigen::Vector2d& centre, int row, const engine::Rgba& colour) {
+    constexpr int kPieces = 48;
+    const slam::PrincipalAxes axes = slam::principalAxes(snapshot_.covariance.block2(row, row));
+    const Eigen::Vector2d semi = style_.axis.k * axes.eigenvalues.cwiseMax(0.0).cwiseSqrt();
+    const Eigen::Matrix2d directions = axes.directions();
+    engine::Polyline ring{.points = {}, .width_px = 1.6, .colour = colour};
+    for (int piece = 0; piece <= kPieces; ++piece) {
+      const double angle = 2.0 * std::numbers::pi * piece / kPieces;
+      const Eigen::Vector2d on_ring(semi.x() * std::cos(angle), semi.y() * std::sin(angle));
+      ring.points.push_back(onFloor(centre + directions * on_ring));
+    }
+    scene_.lines.push_back(std::move(ring));
+  }
+
+  const slam::Snapshot& snapshot_;
+  const SceneStyle& style_;
+  engine::Scene scene_;
+};
+
+}  // namespace
+
+engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d, const Eigen::Vector3d& centre,
+                                    const SceneStyle& style) {
+  const slam::PrincipalAxes principal = slam::principalAxes(P_d);
+  const Eigen::Matrix2d directions = principal.directions();
+  const double major = style.map_scale * style.axis.semiAxis(principal.eigenvalues.x());
+  const double minor = style.map_scale * style.axis.semiAxis(principal.eigenvalues.y());
+  engine::Ellipsoid ellipsoid{.centre = centre,
+                              .axes = Eigen::Matrix3d::Zero(),
+                              .colour = colour::kEllipsoid};
+  ellipsoid.axes.block<2, 1>(0, 0) = major * directions.col(0);
+  ellipsoid.axes.block<2, 1>(0, 1) = minor * directions.col(1);
+  ellipsoid.axes(2, 2) = minor;
+  return ellipsoid;
+}
+
+engine::Scene buildScene(const slam::Snapshot& snapshot, const PathTrace& path,
+                         const slam::Clustering& clusters, const SceneStyle& style) {
+  SceneBuilder builder(snapshot, style);
+  builder.addRobot(path);
+  builder.addFeatures();
+  const slam::PairSelection selection =
+      slam::selectPairs(snapshot, style.mode, clusters, {.selected = style.selected, .alarms = {}});
+  for (const slam::FeaturePair& pair : selection.pairs) builder.addPair(pair);
+  for (const slam::ClusterPair& pair : selection.cluster_pairs) builder.addClusterPair(pair);
+  return builder.take();
+}
+
+}  // namespace slamscope::apps

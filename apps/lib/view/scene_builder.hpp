@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "apps/lib/view/path_trace.hpp"
+#include "engine/scene/glyphs.hpp"
+#include "slam/clusters.hpp"
+#include "slam/correlation.hpp"
+#include "slam/correlation_pairs.hpp"
+#include "slam/snapshot.hpp"
+
+namespace slamscope::apps {
+
+/// Choices of the user and sizes that suit the view. Lengths are of the scene (m on the real floor);
+/// the map is drawn at `map_scale`.
+struct SceneStyle {
+  slam::PairMode mode = slam::PairMode::all;
+  slam::AxisScale axis;
+  std::vector<slam::FeatureId> selected;  ///< for PairMode::selected
+  double map_scale = 1.0;
+  bool covariance_rings = false;  ///< k-sigma ellipses of robot and features on the floor
+  bool labels = true;             ///< feature ids
+  double cone_height = 0.22;      ///< m
+  double cone_radius = 0.028;     ///< m
+  double arrow_length = 0.30;     ///< m
+  /// Where "above" is for the viewer (the picture's up), in scene coordinates, unit length.
+  Eigen::Vector3d viewer_up = Eigen::Vector3d::UnitZ();
+};
+
+/// The colours of the paper (section 3.2).
+namespace colour {
+inline constexpr engine::Rgba kRobot{0.12F, 0.80F, 0.22F, 1.0F};
+inline constexpr engine::Rgba kHeading{1.00F, 0.84F, 0.05F, 1.0F};
+inline constexpr engine::Rgba kFeature{0.05F, 0.85F, 0.95F, 1.0F};
+inline constexpr engine::Rgba kPair{1.00F, 0.90F, 0.10F, 0.75F};
+inline constexpr engine::Rgba kEllipsoid{0.90F, 0.12F, 0.10F, 1.0F};
+}  // namespace colour
+
+/// One snapshot as glyphs, in the frame of the map scaled by `map_scale`:
+/// robot and features as cones standing on their tips, heading arrow, path, and the relative
+/// covariances that the mode selects as ellipsoids in the middle of their pair's line. `clusters`
+/// must be of this snapshot.
+///
+/// An ellipsoid's horizontal semi-axes are those of P_d by `axis`, the vertical one is as long as
+/// the minor one (the paper's step against clutter). In mode min-mean-max the minimum stands
+/// underneath and the maximum above the mean as the viewer sees it: from an overhead camera a
+/// vertical stack would hide all but the top one.
+[[nodiscard]] engine::Scene buildScene(const slam::Snapshot& snapshot, const PathTrace& path,
+                                       const slam::Clustering& clusters, const SceneStyle& style);
+
+/// The ellipsoid for one relative covariance (m²), centred at `centre` (scene, m).
+[[nodiscard]] engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d,
+                                                  const Eigen::Vector3d& centre,
+                                                  const SceneStyle& style);
+
+}  // namespace slamscope::apps

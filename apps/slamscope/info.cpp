@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "apps/slamscope/verbs.hpp"
+#include "slam/jsonl.hpp"
+#include "slam/run_reader.hpp"
+#include "slam/run_summary.hpp"
+
+namespace slamscope::apps {
+namespace {
+
+std::string_view eventOf(std::size_t index) {
+  return slam::eventName(static_cast<slam::Event>(index));
+}
+
+double seconds(std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); }
+
+nlohmann::ordered_json asJson(const slam::RunSummary& run) {
+  nlohmann::ordered_json events = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < run.events.size(); ++k) {
+    if (run.events[k] > 0) events[std::string(eventOf(k))] = run.events[k];
+  }
+  return {{"records", run.records},
+          {"steps", run.steps},
+          {"events", events},
+          {"features_at_end", run.features_at_end},
+          {"features_at_most", run.features_at_most},
+          {"different_features", run.different_features},
+          {"start_s", seconds(run.first)},
+          {"duration_s", seconds(run.duration())},
+          {"level", run.levelName()},
+          {"truth", run.truth},
+          {"sensor", std::string(slam::sensorName(run.header.sensor))},
+          {"robot", run.header.robot},
+          {"warnings", run.warnings}};
+}
+
+void print(const slam::RunSummary& run) {
+  std::printf("records   %llu, %llu steps of time\n", static_cast<unsigned long long>(run.records),
+              static_cast<unsigned long long>(run.steps));
+  std::printf("events   ");
+  for (std::size_t k = 0; k < run.events.size(); ++k) {
+    if (run.events[k] > 0) {
+      std::printf(" %llu %s", static_cast<unsigned long long>(run.events[k]), eventOf(k).data());
+    }
+  }
+  std::printf("\nfeatures  %d at the end, %d at most, %llu different\n", run.features_at_end,
+              run.features_at_most, static_cast<unsigned long long>(run.different_features));
+  std::printf("duration  %.3f s from t = %.3f s\n", seconds(run.duration()), seconds(run.first));
+  std::printf("level     %s\n", run.levelName().c_str());
+  std::printf("sensor    %s\n", slam::sensorName(run.header.sensor).data());
+  if (!run.header.robot.empty()) std::printf("robot     %s\n", run.header.robot.c_str());
+  if (run.first_not_finite) {
+    std::printf("broken    record %llu is the first with a number that is not finite\n",
+                static_cast<unsigned long long>(*run.first_not_finite));
+  }
+}
+
+}  // namespace
+
+void addInfo(CLI::App& program) {
+  struct Options {
+    std::string run;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* verb = program.add_subcommand("info", "what is in a run: steps, features, duration, level");
+  verb->footer("Example: slamscope info run.jsonl.zst");
+  verb->add_option("RUN", options->run, "run to read (.jsonl, .jsonl.zst)")->required();
+  verb->add_flag("--json", options->json, "print JSON");
+  verb->callback([options] {
+    slam::RunReader reader(options->run);
+    const slam::RunSummary summary = slam::summarize(reader);
+    for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
+    if (options->json) {
+      std::printf("%s\n", asJson(summary).dump(2).c_str());
+    } else {
+      print(summary);
+    }
+  });
+}
+
+}  // namespace slamscope::apps
