@@ -21,6 +21,12 @@ class FrameSource {
   /// should be there can't be had: unreadable picture, another size, camera unplugged.
   [[nodiscard]] virtual std::optional<Frame> next() = 0;
 
+  /// Passes over frames that nobody will look at. A source that makes its frames needs no time.
+  virtual void skip(std::uint64_t frames) {
+    while (frames-- > 0 && next()) {
+    }
+  }
+
   /// Intrinsics, where the source knows its own (the lab does; files and devices don't).
   [[nodiscard]] virtual std::optional<CameraInfo> cameraInfo() const { return std::nullopt; }
   /// Frames come at the world's pace and are lost when nobody asks (a camera).

@@ -84,6 +84,7 @@ class Lab final : public FrameSource {
   ~Lab() override;
 
   [[nodiscard]] std::optional<Frame> next() override;
+  void skip(std::uint64_t frames) override { next_ += frames; }
   [[nodiscard]] std::optional<CameraInfo> cameraInfo() const override { return options_.camera; }
   [[nodiscard]] std::optional<std::uint64_t> count() const override;
 

@@ -21,6 +21,13 @@ class FramePrefetch {
     return frame;
   }
 
+  /// Passes over the next `frames`.
+  void skip(std::uint64_t frames) {
+    if (frames == 0) return;
+    if (ahead_.valid()) static_cast<void>(ahead_.get()), --frames;
+    source_.skip(frames);
+  }
+
  private:
   tracking::FrameSource& source_;
   std::future<std::optional<tracking::Frame>> ahead_;  // last member: its destructor waits

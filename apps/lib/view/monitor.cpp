@@ -17,6 +17,7 @@
 #include "apps/lib/view/slam_view.hpp"
 #include "engine/render/offscreen.hpp"
 #include "engine/scene/clip.hpp"
+#include "engine/window/window.hpp"
 #include "tracking/tag_detector.hpp"
 
 namespace slamscope::apps {
@@ -103,6 +104,7 @@ struct Monitor::State {
   RunClock clock;
   std::optional<nanoseconds> first_time;
   nanoseconds frame_time{};
+  nanoseconds frame_step{};
   nanoseconds run_time{};
   std::uint64_t frame_count = 0;
   std::uint64_t drawn_frame = 0;
@@ -125,7 +127,11 @@ Monitor::State::State(const MonitorOptions& request)
       registration(setup.registration, tracking::CameraModel(setup.info)),
       frames(*setup.source),
       gpu(std::make_shared<engine::Gpu>(
-          engine::GpuOptions{.device = request.device, .validation = request.validation})),
+          engine::GpuOptions{.device = request.device,
+                             .validation = request.validation,
+                             .instance_extensions = request.window
+                                                        ? engine::windowInstanceExtensions()
+                                                        : std::vector<std::string>{}})),
       offscreen(gpu, camera.pinhole.width, camera.pinhole.height) {
   choices = {.mode = request.mode,
              .axis = request.axis,
@@ -174,6 +180,7 @@ bool Monitor::State::next() {
       }
     }
   }
+  if (frame_count > 0) frame_step = frame->time - frame_time;
   frame_time = frame->time;
   run_time = clock.runTime(frame_time);
   ++frame_count;
@@ -377,6 +384,7 @@ bool Monitor::paced() const {
 double Monitor::secondsShown() const {
   return state_->first_time ? seconds(state_->frame_time - *state_->first_time) : 0.0;
 }
+double Monitor::frameSeconds() const { return seconds(state_->frame_step); }
 std::uint64_t Monitor::framesShown() const { return state_->frame_count; }
 double Monitor::progress() const {
   const State& state = *state_;

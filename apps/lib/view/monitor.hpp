@@ -60,9 +60,10 @@ class Monitor {
   [[nodiscard]] Choices& choices();
 
   /// Whether frames come faster than they should be shown: a film or a lab beside a window or a
-  /// live filter. Seconds from the first frame to the newest.
+  /// live filter.
   [[nodiscard]] bool paced() const;
-  [[nodiscard]] double secondsShown() const;
+  [[nodiscard]] double secondsShown() const;  ///< from the first frame to the newest
+  [[nodiscard]] double frameSeconds() const;  ///< from the frame before to this one
   [[nodiscard]] std::uint64_t framesShown() const;
   /// Share of the run that was shown, where its end is known; else negative.
   [[nodiscard]] double progress() const;

@@ -29,6 +29,11 @@ struct SceneStyle {
   Eigen::Vector3d viewer_up = Eigen::Vector3d::UnitZ();
 };
 
+/// What makes a glyph of a room-sized map visible: λ is in m², and 1 m a m² would be a speck.
+[[nodiscard]] constexpr double defaultGain(slam::Axis axis) {
+  return axis == slam::Axis::eigenvalue ? 60.0 : 1.0;
+}
+
 /// The colours of the paper (section 3.2).
 namespace colour {
 inline constexpr engine::Rgba kRobot{0.12F, 0.80F, 0.22F, 1.0F};

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "apps/slamscope/monitor_flags.hpp"
+
+#include <cmath>
+#include <regex>
+#include <stdexcept>
+
+namespace slamscope::apps {
+namespace {
+
+slam::Axis axisFromName(const std::string& name) {
+  if (name == "eigenvalue") return slam::Axis::eigenvalue;
+  if (name == "log") return slam::Axis::log;
+  return slam::Axis::sigma;
+}
+
+void addCameraFlags(CLI::App& verb, MonitorFlags& flags) {
+  const std::string group = "Camera and registration";
+  MonitorOptions& rest = flags.rest;
+  verb.add_option("--camera", rest.camera,
+                  "lab (synthetic), a device (/dev/video0), a video, a directory or a pattern of pictures")
+      ->group(group);
+  verb.add_option("--camera-info", rest.camera_info, "intrinsics, ROS camera_info YAML")->group(group);
+  verb.add_option("--tags", rest.tags, "floor or board tags of known place, YAML")->group(group);
+  verb.add_option("--camera-pose", rest.camera_pose, "pose of the camera over the floor, YAML")
+      ->group(group);
+  verb.add_option("--robot", rest.robot,
+                  "the robot's tag, YAML (id, size_m, T_robot_tag); none: the map starts at the "
+                  "origin of --tags")
+      ->group(group);
+  verb.add_option("--registration", flags.registration,
+                  "once: from the first frames, then stored; continuous: a camera that moves")
+      ->check(CLI::IsMember({"once", "continuous"}))
+      ->group(group);
+  verb.add_option("--fps", rest.fps, "frame rate of pictures without stamps, and of a lab")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->group(group);
+  verb.add_option("--capture-size", [&rest](const CLI::results_t& words) {
+        const char separator = 'x';
+        const auto at = words.front().find(separator);
+        if (at == std::string::npos) return false;
+        return CLI::detail::lexical_cast(words.front().substr(0, at), rest.v4l2.width) &&
+               CLI::detail::lexical_cast(words.front().substr(at + 1), rest.v4l2.height);
+      }, "WxH asked of a device")
+      ->group(group);
+  verb.add_option("--capture-rate", rest.v4l2.fps, "frames a second asked of a device")->group(group);
+  verb.add_option("--pixel-format", rest.v4l2.pixel_format, "YUYV, MJPG or GREY, of a device")
+      ->check(CLI::IsMember({"YUYV", "MJPG", "GREY"}))
+      ->group(group);
+  verb.add_option("--focus", flags.focus, "fixed focus of a device, driver's units")->group(group);
+  verb.add_option("--exposure-ms", flags.exposure_ms, "fixed exposure of a device")->group(group);
+}
+
+void addSlamFlags(CLI::App& verb, MonitorFlags& flags) {
+  const std::string group = "SLAM";
+  MonitorOptions& rest = flags.rest;
+  verb.add_option("--slam", rest.slam,
+                  "simulate, a run (.jsonl, .jsonl.zst), - (standard input) or tcp://HOST:PORT (listens)")
+      ->group(group);
+  verb.add_option("--slam-rate", rest.slam_rate, "seconds of the run per second of the camera")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  verb.add_option("--time-offset", rest.time_offset, "s, added to a frame's time before the run is asked")
+      ->group(group);
+  verb.add_option("--map-scale", flags.map_scale, "size of the map on the floor: 0.1 draws 10 m as 1 m")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+}
+
+void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
+  const std::string group = "Drawing";
+  MonitorOptions& rest = flags.rest;
+  verb.add_option("--mode", flags.mode, "pairs: all, between-clusters, min-mean-max, selected")
+      ->check(CLI::IsMember({"all", "between-clusters", "min-mean-max", "selected", "alarms"}))
+      ->group(group);
+  verb.add_option("--select", rest.selected, "ids of features whose pairs `--mode selected` shows")
+      ->delimiter(',')
+      ->group(group);
+  verb.add_option("--axis", flags.axis,
+                  "length of a semi-axis: sigma (k sqrt(lambda), metres), eigenvalue (the paper's: "
+                  "gain x lambda), log")
+      ->check(CLI::IsMember({"sigma", "eigenvalue", "log"}))
+      ->group(group);
+  verb.add_option("--k", flags.k, "how many sigma")->check(CLI::PositiveNumber)->group(group);
+  verb.add_option("--gain", flags.gain, "factor on the axes; default 1, for eigenvalue 60 (m per m^2)")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  verb.add_option("--cluster-cut", flags.cluster_cut, "m: features nearer than this are one cluster; default automatic")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  verb.add_flag("--rings", rest.covariance_rings, "k-sigma ellipses of robot and features on the floor");
+  verb.add_option("--opacity", rest.opacity, "of everything drawn, 0 to 1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group);
+  verb.add_flag("!--no-labels", rest.labels, "leave the feature ids out")->group(group);
+  verb.add_flag("!--no-legend", rest.legend, "leave the legend out")->group(group);
+  verb.add_option("--size", flags.size, "WxH of the picture; default the camera's")->group(group);
+}
+
+void addOutputFlags(CLI::App& verb, MonitorFlags& flags) {
+  const std::string group = "Output";
+  MonitorOptions& rest = flags.rest;
+  verb.add_option("--output", rest.output, "out.mp4 or out-%05d.png; without any output: a window")
+      ->group(group);
+  verb.add_option("--picture", rest.picture, "one PNG: the last frame")->group(group);
+  verb.add_option("--compare", rest.compare, "one PNG: start and end of the run beside each other")
+      ->group(group);
+  verb.add_option("--report", rest.report, "JSON: registration, errors and pixels of each frame")
+      ->group(group);
+  verb.add_option("--lab-truth", rest.lab_truth, "JSON: the lab's camera, poses and features")->group(group);
+  verb.add_option("--lab-seed", rest.lab_seed, "of the lab's floor and noise")->group(group);
+  verb.add_option("--frames", rest.frames, "stop after so many")->check(CLI::PositiveNumber)->group(group);
+  verb.add_flag("--window", rest.window, "a window, besides the outputs")->group(group);
+  verb.add_option("--device", rest.device, "Vulkan device by index or name (slamscope devices)")->group(group);
+  verb.add_flag("--validation", rest.validation, "Vulkan's validation layer; its messages are errors")
+      ->group(group);
+}
+
+}  // namespace
+
+MonitorOptions MonitorFlags::options() const {
+  MonitorOptions options = rest;
+  options.simulation = simulation.options();
+  options.continuous = registration == "continuous";
+  options.mode = slam::pairModeFromName(mode);
+  options.axis.axis = axisFromName(axis);
+  options.axis.k = k;
+  options.axis.gain = gain > 0.0 ? gain : defaultGain(options.axis.axis);
+  if (map_scale > 0.0) options.map_scale = map_scale;
+  if (cluster_cut > 0.0) options.cluster_cut = cluster_cut;
+  if (focus >= 0) options.v4l2.focus = focus;
+  if (exposure_ms > 0.0) {
+    options.v4l2.exposure = std::chrono::microseconds(std::lround(1000.0 * exposure_ms));
+  }
+  if (options.mode == slam::PairMode::alarms) {
+    throw std::invalid_argument("--mode alarms is not supported yet");
+  }
+  if (options.mode == slam::PairMode::selected && options.selected.empty()) {
+    throw std::invalid_argument("--mode selected needs --select ID,ID,…");
+  }
+  if (!size.empty()) {
+    std::smatch parts;
+    if (!std::regex_match(size, parts, std::regex(R"((\d{2,5})x(\d{2,5}))"))) {
+      throw std::invalid_argument("--size: expected WxH, for example 1280x720, got " + size);
+    }
+    options.width = std::stoi(parts[1]);
+    options.height = std::stoi(parts[2]);
+  }
+  return options;
+}
+
+void addMonitorFlags(CLI::App& verb, MonitorFlags& flags) {
+  addCameraFlags(verb, flags);
+  addSlamFlags(verb, flags);
+  addDrawingFlags(verb, flags);
+  addOutputFlags(verb, flags);
+  addSimulationFlags(verb, flags.simulation);
+}
+
+}  // namespace slamscope::apps

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "apps/lib/view/monitor_options.hpp"
+#include "apps/slamscope/flags.hpp"
+
+namespace slamscope::apps {
+
+/// The overhead view as the command line states it.
+struct MonitorFlags {
+  SimulationFlags simulation;
+  std::string registration = "once";
+  std::string mode = "all";
+  std::string axis = "sigma";
+  std::string size;
+  double k = 3.0;
+  double gain = 0.0;         ///< 0: the axis's own
+  double map_scale = 0.0;    ///< 0: automatic
+  double cluster_cut = 0.0;  ///< 0: automatic
+  int focus = -1;            ///< negative: left alone
+  double exposure_ms = 0.0;  ///< 0: the camera's own
+  MonitorOptions rest;       ///< what needs no translation
+
+  /// Throws std::invalid_argument for what can't be.
+  [[nodiscard]] MonitorOptions options() const;
+};
+
+/// Camera, registration, SLAM source, what is drawn, outputs.
+void addMonitorFlags(CLI::App& verb, MonitorFlags& flags);
+
+/// Runs the view to its end: in a window where `window` says so, else into the outputs.
+void runMonitor(const MonitorOptions& options);
+
+}  // namespace slamscope::apps
