@@ -187,7 +187,9 @@ void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAt
     const auto anchor = pixel(label.anchor);
     if (!anchor) continue;
     const engine::TextExtent extent = engine::measureText(fonts, label.text, label.height_px);
-    requests.push_back({.anchor_px = *anchor, .size_px = {extent.width_px, extent.height_px}});
+    requests.push_back({.anchor_px = *anchor,
+                        .size_px = {extent.width_px, extent.height_px},
+                        .last_offset_px = {}});
     in_view.push_back(std::move(label));
   }
   const engine::PixelBox picture{

@@ -56,6 +56,7 @@ tracking::TagDetectorOptions detectorOptions(const CameraSetup& setup) {
                         ? registration.robot->family
                         : registration.layout.family,
           .threads = 2,
+          .quad_decimate = {},
           .camera = tracking::CameraModel(setup.info)};
 }
 
