@@ -14,7 +14,7 @@ namespace slamscope::slam {
 /// odometry and a camera (MR.CLAM). Too tight noise makes a filter sure of a wrong map; start wide.
 struct RecordingRunOptions {
   /// σ of a sighting: range (m), bearing (rad); where the recording gives σ, those are used.
-  Eigen::Vector2d sensor_sigma{0.25, 0.05};
+  Eigen::Vector2d sensor_sigma{0.30, 0.05};
   /// σ of dead reckoning after 1 s of driving: forward (m), sideways (m), turn (rad). Grows with
   /// the root of time, so that the rate of the odometry does not matter. None while it says
   /// standstill.

@@ -20,15 +20,20 @@
 namespace slamscope::apps {
 namespace {
 
+template <typename Vector>
+std::vector<double> list(const Vector& vector) {
+  return {vector.begin(), vector.end()};
+}
+
 struct SlamFlags {
   std::string mrclam;
   int robot = 0;
   std::string csv;
   std::string association = "known";
   std::string update = "batch";
-  std::vector<double> sensor_sigma{0.25, 0.05};
-  std::vector<double> odometry_sigma{0.05, 0.0, 0.1};
-  std::vector<double> initial_sigma{0.0, 0.0, 0.0};
+  std::vector<double> sensor_sigma = list(slam::RecordingRunOptions{}.sensor_sigma);
+  std::vector<double> odometry_sigma = list(slam::RecordingRunOptions{}.odometry_sigma);
+  std::vector<double> initial_sigma = list(slam::RecordingRunOptions{}.initial_sigma);
   double gate = 0.0;  ///< probability; 0: no gate
   std::string record = "steps";
   std::string output;
