@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "apps/lib/view/scene_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/lib/view/legend.hpp"
+#include "slam/simulation.hpp"
+
+namespace slamscope::apps {
+namespace {
+
+struct Shown {
+  slam::Snapshot snapshot;
+  slam::Clustering clusters;
+};
+
+/// The paper's map as the filter knows it at the end.
+Shown endOfRun() {
+  slam::Simulation simulation({.loops = 1});
+  while (simulation.step()) {
+  }
+  Shown shown{.snapshot = simulation.filter().snapshot(), .clusters = {}};
+  slam::ClusterTracker tracker;
+  shown.clusters = tracker.update(shown.snapshot);
+  return shown;
+}
+
+engine::Scene sceneOf(const Shown& shown, const SceneStyle& style) {
+  PathTrace path;
+  path.add({0.0, 0.0});
+  path.add(shown.snapshot.pose.head<2>());
+  return buildScene(shown.snapshot, path, shown.clusters, style);
+}
+
+/// The middle of the pair's line, where its ellipsoid belongs.
+double distanceToNearestMiddle(const Shown& shown, const Eigen::Vector3d& centre) {
+  double nearest = 1e9;
+  const auto& features = shown.snapshot.features;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    for (std::size_t j = i + 1; j < features.size(); ++j) {
+      nearest = std::min(nearest, (0.5 * (features[i] + features[j]) - centre.head<2>()).norm());
+    }
+  }
+  return nearest;
+}
+
+TEST(SceneBuilder, AllPairsOfFifteenFeaturesAre105EllipsoidsInTheMiddleOfTheirLines) {
+  const Shown shown = endOfRun();
+  const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::all});
+  ASSERT_EQ(scene.ellipsoids.size(), 105U);
+  EXPECT_EQ(scene.cones.size(), 16U);
+  EXPECT_EQ(scene.arrows.size(), 1U);
+  EXPECT_EQ(scene.lines.size(), 106U);  // and the path
+  for (const engine::Ellipsoid& ellipsoid : scene.ellipsoids) {
+    EXPECT_LT(distanceToNearestMiddle(shown, ellipsoid.centre), 1e-12);
+    EXPECT_EQ(ellipsoid.centre.z(), 0.0);
+  }
+  // Twin: an ellipsoid at an end of its line would be seen.
+  const Eigen::Vector2d end = shown.snapshot.features.front();
+  EXPECT_GT(distanceToNearestMiddle(shown, {end.x(), end.y(), 0.0}), 1e-3);
+}
+
+TEST(SceneBuilder, BetweenClustersLeavesOutPairsInsideThem) {
+  const Shown shown = endOfRun();
+  ASSERT_EQ(shown.clusters.count(), 3);
+  std::size_t inside = 0;
+  for (const auto& members : shown.clusters.members) {
+    inside += members.size() * (members.size() - 1) / 2;
+  }
+  const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::between_clusters});
+  EXPECT_EQ(scene.ellipsoids.size(), 105U - inside);
+  EXPECT_GT(inside, 0U);
+}
+
+TEST(SceneBuilder, MinMeanMaxStandsUnderneathAndAboveTheMeanForTheViewer) {
+  const Shown shown = endOfRun();
+  const Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.96, 0.28).normalized();
+  const engine::Scene scene =
+      sceneOf(shown, {.mode = slam::PairMode::min_mean_max, .viewer_up = up});
+  ASSERT_EQ(scene.ellipsoids.size(), 9U);  // three pairs of clusters
+  for (std::size_t k = 0; k < 9; k += 3) {
+    const double low = up.dot(scene.ellipsoids[k].centre);
+    const double middle = up.dot(scene.ellipsoids[k + 1].centre);
+    const double high = up.dot(scene.ellipsoids[k + 2].centre);
+    EXPECT_LT(low, middle);
+    EXPECT_LT(middle, high);
+    EXPECT_EQ(scene.ellipsoids[k + 1].centre.z(), 0.0);
+    // The least is the smallest: √det of the horizontal block.
+    const auto area = [&](std::size_t index) {
+      return std::abs(scene.ellipsoids[index].axes.topLeftCorner<2, 2>().determinant());
+    };
+    EXPECT_LT(area(k), area(k + 2));
+  }
+}
+
+TEST(SceneBuilder, SelectedShowsThePairsOfThePickedFeatureOnly) {
+  const Shown shown = endOfRun();
+  const engine::Scene scene =
+      sceneOf(shown, {.mode = slam::PairMode::selected, .selected = {3}});
+  EXPECT_EQ(scene.ellipsoids.size(), 14U);
+}
+
+TEST(SceneBuilder, AxesAreThoseOfTheRelativeCovariance) {
+  Eigen::Matrix2d P_d;
+  P_d << 0.04, 0.012, 0.012, 0.01;
+  const engine::Ellipsoid ellipsoid = relativeEllipsoid(
+      P_d, Eigen::Vector3d::Zero(), {.axis = {.axis = slam::Axis::sigma, .k = 2.0, .gain = 1.0}});
+  const Eigen::Matrix2d axes = ellipsoid.axes.topLeftCorner<2, 2>();
+  EXPECT_LT((axes * axes.transpose() - 4.0 * P_d).norm(), 1e-14);
+  // The third axis is as long as the minor one.
+  EXPECT_NEAR(ellipsoid.axes(2, 2), ellipsoid.axes.col(1).norm(), 1e-15);
+  // Twin: another k is another ellipsoid.
+  EXPECT_GT((axes * axes.transpose() - 9.0 * P_d).norm(), 1e-2);
+}
+
+TEST(SceneBuilder, MapScaleScalesPlacesAndAxesAlike) {
+  const Shown shown = endOfRun();
+  const engine::Scene full = sceneOf(shown, {});
+  const engine::Scene tenth = sceneOf(shown, {.map_scale = 0.1});
+  for (std::size_t k = 0; k < full.ellipsoids.size(); ++k) {
+    EXPECT_LT((0.1 * full.ellipsoids[k].centre - tenth.ellipsoids[k].centre).norm(), 1e-12);
+    EXPECT_LT((0.1 * full.ellipsoids[k].axes - tenth.ellipsoids[k].axes).norm(), 1e-12);
+  }
+}
+
+TEST(Legend, BarStandsForTheEigenvalueThatIsDrawnSoLong) {
+  for (const slam::Axis kind : {slam::Axis::sigma, slam::Axis::eigenvalue, slam::Axis::log}) {
+    const slam::AxisScale axis{.axis = kind, .k = 3.0, .gain = 7.0};
+    for (const double length : {0.002, 0.1, 0.5}) {
+      EXPECT_NEAR(axis.semiAxis(eigenvalueOfLength(axis, length)), length, 1e-9 * length);
+    }
+  }
+}
+
+TEST(Legend, RoundLengthsAreOneTwoFive) {
+  EXPECT_DOUBLE_EQ(roundLength(1.0), 1.0);
+  EXPECT_DOUBLE_EQ(roundLength(0.99), 0.5);
+  EXPECT_DOUBLE_EQ(roundLength(0.37), 0.2);
+  EXPECT_DOUBLE_EQ(roundLength(73.0), 50.0);
+}
+
+}  // namespace
+}  // namespace slamscope::apps
