@@ -27,7 +27,9 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> nearestWord(std::string_view mistyped,
                                        std::span<const std::string> known) {
-  const auto distance = [mistyped](const std::string& word) { return editDistance(mistyped, word); };
+  const auto distance = [mistyped](const std::string& word) {
+    return editDistance(mistyped, word);
+  };
   const auto best = std::min_element(
       known.begin(), known.end(),
       [&](const std::string& a, const std::string& b) { return distance(a) < distance(b); });

@@ -20,7 +20,9 @@ void Progress::show(double done, const std::string& detail) {
   print(title_ + "  " + std::to_string(std::lround(100.0 * done)) + " %  " + detail);
 }
 
-void Progress::show(const std::string& detail) { print(title_ + "  " + detail); }
+void Progress::show(const std::string& detail) {
+  print(title_ + "  " + detail);
+}
 
 void Progress::print(const std::string& line) {
   if (!terminal_) return;

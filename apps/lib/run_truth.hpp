@@ -20,7 +20,8 @@ struct RunTruth {
   std::function<Eigen::Vector3d(std::chrono::nanoseconds)> pose;
 };
 
-/// Reads a run through to its end for its truth; nothing where it carries none. Throws as RunReader.
+/// Reads a run through to its end for its truth; nothing where it carries none. Throws as
+/// RunReader.
 [[nodiscard]] std::optional<RunTruth> truthOfRun(const std::string& path);
 
 /// The same of a simulation, without running its filter.

@@ -18,7 +18,8 @@ slam::SimulationOptions SimulationFlags::options() const {
     }
     options.initial_sigma = Eigen::Vector3d(initial_sigma[0], initial_sigma[1], initial_sigma[2]);
   }
-  static_cast<void>(slam::makeFault(options.fault, {.sensor = options.sensor, .features = {}}));  // names are checked here
+  static_cast<void>(slam::makeFault(
+      options.fault, {.sensor = options.sensor, .features = {}}));  // names are checked here
   return options;
 }
 

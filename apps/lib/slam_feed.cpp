@@ -63,7 +63,8 @@ class LinkFeed : public SlamFeed {
     std::string text = spec_ == "-" ? "standard input" : spec_;
     switch (status.state) {
       case slam::LinkStatus::State::waiting:
-        text += status.connections == 0 ? ": waiting for a filter" : ": the filter is gone, waiting";
+        text +=
+            status.connections == 0 ? ": waiting for a filter" : ": the filter is gone, waiting";
         break;
       case slam::LinkStatus::State::connected:
         text += ": live";
@@ -73,8 +74,8 @@ class LinkFeed : public SlamFeed {
         break;
     }
     if (status.unreadable > 0) {
-      text += ", " + std::to_string(status.unreadable) + " unreadable lines (" +
-              status.last_error + ")";
+      text += ", " + std::to_string(status.unreadable) + " unreadable lines (" + status.last_error +
+              ")";
     }
     return text;
   }

@@ -16,7 +16,8 @@ void addConvert(CLI::App& program) {
     std::string from, to;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* verb = program.add_subcommand("convert", "write a run in another format, by its ending");
+  CLI::App* verb =
+      program.add_subcommand("convert", "write a run in another format, by its ending");
   verb->footer("Example: slamscope convert run.jsonl run.jsonl.zst");
   verb->add_option("A", options->from, "run to read (.jsonl, .jsonl.zst)")->required();
   verb->add_option("B", options->to, "run to write (.jsonl, .jsonl.zst)")->required();

@@ -19,7 +19,9 @@ std::string_view eventOf(std::size_t index) {
   return slam::eventName(static_cast<slam::Event>(index));
 }
 
-double seconds(std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); }
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
 
 nlohmann::ordered_json asJson(const slam::RunSummary& run) {
   nlohmann::ordered_json events = nlohmann::ordered_json::object();
@@ -70,7 +72,8 @@ void addInfo(CLI::App& program) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* verb = program.add_subcommand("info", "what is in a run: steps, features, duration, level");
+  CLI::App* verb =
+      program.add_subcommand("info", "what is in a run: steps, features, duration, level");
   verb->footer("Example: slamscope info run.jsonl.zst");
   verb->add_option("RUN", options->run, "run to read (.jsonl, .jsonl.zst)")->required();
   verb->add_flag("--json", options->json, "print JSON");

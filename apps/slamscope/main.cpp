@@ -36,7 +36,8 @@ int complain(const CLI::App& program, const CLI::ParseError& error) {
   if (asked_for_help) return program.exit(error);
 
   std::string message = error.what();
-  const CLI::App* at = program.get_subcommands().empty() ? &program : program.get_subcommands().front();
+  const CLI::App* at =
+      program.get_subcommands().empty() ? &program : program.get_subcommands().front();
   std::vector<std::string> unknown = at->remaining();
   if (unknown.empty()) unknown = program.remaining();
   if (!unknown.empty()) {
@@ -55,7 +56,8 @@ int complain(const CLI::App& program, const CLI::ParseError& error) {
 int run(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("slamscope"));
   spdlog::set_pattern("slamscope: %^%l%$: %v");
-  std::signal(SIGPIPE, SIG_IGN);  // NOLINT: a reader that goes away is an error of write, not a death
+  std::signal(SIGPIPE,
+              SIG_IGN);  // NOLINT: a reader that goes away is an error of write, not a death
 
   CLI::App program{
       "slamscope draws, over a camera picture, what an EKF-SLAM filter believes: pose, path,\n"
@@ -90,4 +92,6 @@ int run(int argc, char** argv) {
 
 }  // namespace slamscope::apps
 
-int main(int argc, char** argv) { return slamscope::apps::run(argc, argv); }
+int main(int argc, char** argv) {
+  return slamscope::apps::run(argc, argv);
+}

@@ -30,8 +30,9 @@ void runHeadless(Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
   while (!g_interrupted && monitor.next()) {
     if (monitor.paced()) {
-      std::this_thread::sleep_until(start + std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                                std::chrono::duration<double>(monitor.secondsShown())));
+      std::this_thread::sleep_until(start +
+                                    std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                        std::chrono::duration<double>(monitor.secondsShown())));
     }
     monitor.draw();
     const std::string frames = std::to_string(monitor.framesShown()) + " frames";
@@ -46,8 +47,9 @@ void runHeadless(Monitor& monitor) {
 void reportValidation(const Monitor& monitor) {
   const auto messages = monitor.gpu()->validationMessages();
   if (!messages.empty()) {
-    throw std::runtime_error(std::to_string(messages.size()) +
-                             " messages of Vulkan's validation layer, the first: " + messages.front());
+    throw std::runtime_error(
+        std::to_string(messages.size()) +
+        " messages of Vulkan's validation layer, the first: " + messages.front());
   }
 }
 
@@ -76,7 +78,8 @@ void addMonitor(CLI::App& program) {
       "monitor", "the overhead view: what a filter believes, drawn over a camera's picture");
   verb->footer(
       "Examples:\n"
-      "  slamscope monitor                                       a window: lab and simulated robot\n"
+      "  slamscope monitor                                       a window: lab and simulated "
+      "robot\n"
       "  slamscope monitor --slam run.jsonl --output out.mp4     a recorded run in the lab\n"
       "  your_filter | slamscope monitor --slam -                a filter in any language, live\n"
       "  slamscope monitor --camera /dev/video0 --camera-info K.yaml --tags floor.yaml \\\n"

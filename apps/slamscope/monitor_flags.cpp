@@ -17,10 +17,12 @@ slam::Axis axisFromName(const std::string& name) {
 void addCameraFlags(CLI::App& verb, MonitorFlags& flags) {
   const std::string group = "Camera and registration";
   MonitorOptions& rest = flags.rest;
-  verb.add_option("--camera", rest.camera,
-                  "lab (synthetic), a device (/dev/video0), a video, a directory or a pattern of pictures")
+  verb.add_option(
+          "--camera", rest.camera,
+          "lab (synthetic), a device (/dev/video0), a video, a directory or a pattern of pictures")
       ->group(group);
-  verb.add_option("--camera-info", rest.camera_info, "intrinsics, ROS camera_info YAML")->group(group);
+  verb.add_option("--camera-info", rest.camera_info, "intrinsics, ROS camera_info YAML")
+      ->group(group);
   verb.add_option("--tags", rest.tags, "floor or board tags of known place, YAML")->group(group);
   verb.add_option("--camera-pose", rest.camera_pose, "pose of the camera over the floor, YAML")
       ->group(group);
@@ -35,15 +37,19 @@ void addCameraFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--fps", rest.fps, "frame rate of pictures without stamps, and of a lab")
       ->check(CLI::Range(0.1, 1000.0))
       ->group(group);
-  verb.add_option("--capture-size", [&rest](const CLI::results_t& words) {
-        const char separator = 'x';
-        const auto at = words.front().find(separator);
-        if (at == std::string::npos) return false;
-        return CLI::detail::lexical_cast(words.front().substr(0, at), rest.v4l2.width) &&
-               CLI::detail::lexical_cast(words.front().substr(at + 1), rest.v4l2.height);
-      }, "WxH asked of a device")
+  verb.add_option(
+          "--capture-size",
+          [&rest](const CLI::results_t& words) {
+            const char separator = 'x';
+            const auto at = words.front().find(separator);
+            if (at == std::string::npos) return false;
+            return CLI::detail::lexical_cast(words.front().substr(0, at), rest.v4l2.width) &&
+                   CLI::detail::lexical_cast(words.front().substr(at + 1), rest.v4l2.height);
+          },
+          "WxH asked of a device")
       ->group(group);
-  verb.add_option("--capture-rate", rest.v4l2.fps, "frames a second asked of a device")->group(group);
+  verb.add_option("--capture-rate", rest.v4l2.fps, "frames a second asked of a device")
+      ->group(group);
   verb.add_option("--pixel-format", rest.v4l2.pixel_format, "YUYV, MJPG or GREY, of a device")
       ->check(CLI::IsMember({"YUYV", "MJPG", "GREY"}))
       ->group(group);
@@ -54,15 +60,18 @@ void addCameraFlags(CLI::App& verb, MonitorFlags& flags) {
 void addSlamFlags(CLI::App& verb, MonitorFlags& flags) {
   const std::string group = "SLAM";
   MonitorOptions& rest = flags.rest;
-  verb.add_option("--slam", rest.slam,
-                  "simulate, a run (.jsonl, .jsonl.zst), - (standard input) or tcp://HOST:PORT (listens)")
+  verb.add_option(
+          "--slam", rest.slam,
+          "simulate, a run (.jsonl, .jsonl.zst), - (standard input) or tcp://HOST:PORT (listens)")
       ->group(group);
   verb.add_option("--slam-rate", rest.slam_rate, "seconds of the run per second of the camera")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  verb.add_option("--time-offset", rest.time_offset, "s, added to a frame's time before the run is asked")
+  verb.add_option("--time-offset", rest.time_offset,
+                  "s, added to a frame's time before the run is asked")
       ->group(group);
-  verb.add_option("--map-scale", flags.map_scale, "size of the map on the floor: 0.1 draws 10 m as 1 m")
+  verb.add_option("--map-scale", flags.map_scale,
+                  "size of the map on the floor: 0.1 draws 10 m as 1 m")
       ->check(CLI::PositiveNumber)
       ->group(group);
 }
@@ -82,13 +91,16 @@ void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
       ->check(CLI::IsMember({"sigma", "eigenvalue", "log"}))
       ->group(group);
   verb.add_option("--k", flags.k, "how many sigma")->check(CLI::PositiveNumber)->group(group);
-  verb.add_option("--gain", flags.gain, "factor on the axes; default 1, for eigenvalue 60 (m per m^2)")
+  verb.add_option("--gain", flags.gain,
+                  "factor on the axes; default 1, for eigenvalue 60 (m per m^2)")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  verb.add_option("--cluster-cut", flags.cluster_cut, "m: features nearer than this are one cluster; default automatic")
+  verb.add_option("--cluster-cut", flags.cluster_cut,
+                  "m: features nearer than this are one cluster; default automatic")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  verb.add_flag("--rings", rest.covariance_rings, "k-sigma ellipses of robot and features on the floor");
+  verb.add_flag("--rings", rest.covariance_rings,
+                "k-sigma ellipses of robot and features on the floor");
   verb.add_option("--opacity", rest.opacity, "of everything drawn, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
       ->group(group);
@@ -107,12 +119,17 @@ void addOutputFlags(CLI::App& verb, MonitorFlags& flags) {
       ->group(group);
   verb.add_option("--report", rest.report, "JSON: registration, errors and pixels of each frame")
       ->group(group);
-  verb.add_option("--lab-truth", rest.lab_truth, "JSON: the lab's camera, poses and features")->group(group);
+  verb.add_option("--lab-truth", rest.lab_truth, "JSON: the lab's camera, poses and features")
+      ->group(group);
   verb.add_option("--lab-seed", rest.lab_seed, "of the lab's floor and noise")->group(group);
-  verb.add_option("--frames", rest.frames, "stop after so many")->check(CLI::PositiveNumber)->group(group);
+  verb.add_option("--frames", rest.frames, "stop after so many")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
   verb.add_flag("--window", rest.window, "a window, besides the outputs")->group(group);
-  verb.add_option("--device", rest.device, "Vulkan device by index or name (slamscope devices)")->group(group);
-  verb.add_flag("--validation", rest.validation, "Vulkan's validation layer; its messages are errors")
+  verb.add_option("--device", rest.device, "Vulkan device by index or name (slamscope devices)")
+      ->group(group);
+  verb.add_flag("--validation", rest.validation,
+                "Vulkan's validation layer; its messages are errors")
       ->group(group);
 }
 

@@ -27,7 +27,8 @@ void addSimulate(CLI::App& program) {
   verb->add_option("--record", options->record,
                    "steps: one record per time; all: every prediction, update and initialisation")
       ->check(CLI::IsMember({"steps", "all"}));
-  verb->add_option("-o,--output", options->output, "run to write (.jsonl, .jsonl.zst; - is standard output)");
+  verb->add_option("-o,--output", options->output,
+                   "run to write (.jsonl, .jsonl.zst; - is standard output)");
   verb->add_flag("--list-faults", options->list_faults, "print the faults and stop");
   verb->callback([options] {
     if (options->list_faults) return listFaults();

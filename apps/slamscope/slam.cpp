@@ -47,16 +47,23 @@ constexpr const char* kFooter =
     "  slamscope slam --csv DIR --sensor-sigma 0.1,0.02 -o run.jsonl\n"
     "\n"
     "Choosing the noise\n"
-    "  --sensor-sigma is what one sighting may be off by, all causes together: the sensor's data sheet\n"
-    "  is a lower bound, features that aren't points and wrong time stamps come on top. Start with\n"
-    "  two or three times the data sheet; too tight noise makes the filter sure of a wrong map, and\n"
+    "  --sensor-sigma is what one sighting may be off by, all causes together: the sensor's data "
+    "sheet\n"
+    "  is a lower bound, features that aren't points and wrong time stamps come on top. Start "
+    "with\n"
+    "  two or three times the data sheet; too tight noise makes the filter sure of a wrong map, "
+    "and\n"
     "  that shows as observations that a gate throws out, or as a map that bends.\n"
-    "  --odometry-sigma is what dead reckoning is off by after 1 s of driving; it grows with the root\n"
+    "  --odometry-sigma is what dead reckoning is off by after 1 s of driving; it grows with the "
+    "root\n"
     "  of time. Drive 1 m straight and turn once: the spread of where you end, per root second.\n"
     "Choosing a gate\n"
-    "  --gate 0.99 leaves out sightings outside the ellipse that holds 99 % of what the filter expects\n"
-    "  (chi-squared, 2 degrees of freedom, of the squared distance). Without known ids it is needed;\n"
-    "  with known ids it guards against outliers. When many percent are left out, the noise is too\n"
+    "  --gate 0.99 leaves out sightings outside the ellipse that holds 99 % of what the filter "
+    "expects\n"
+    "  (chi-squared, 2 degrees of freedom, of the squared distance). Without known ids it is "
+    "needed;\n"
+    "  with known ids it guards against outliers. When many percent are left out, the noise is "
+    "too\n"
     "  tight: widen it rather than the gate.\n"
     "\n"
     "DIR of --csv: odometry.csv (time_s,forward_mps,turn_radps or time_s,dx_m,dy_m,dtheta_rad),\n"
@@ -158,17 +165,20 @@ void addSlam(CLI::App& program) {
   verb->add_option("--association", flags->association,
                    "which feature a sighting belongs to: known (by its id)")
       ->check(CLI::IsMember({"known"}));
-  verb->add_option("--sensor-sigma", flags->sensor_sigma, "RANGE,BEARING (m, rad), where the data gives none")
+  verb->add_option("--sensor-sigma", flags->sensor_sigma,
+                   "RANGE,BEARING (m, rad), where the data gives none")
       ->delimiter(',')
       ->expected(2);
   verb->add_option("--odometry-sigma", flags->odometry_sigma,
                    "FORWARD,SIDEWAYS,TURN (m, m, rad) after 1 s of driving")
       ->delimiter(',')
       ->expected(3);
-  verb->add_option("--initial-sigma", flags->initial_sigma, "X,Y,THETA of the start pose (m, m, rad)")
+  verb->add_option("--initial-sigma", flags->initial_sigma,
+                   "X,Y,THETA of the start pose (m, m, rad)")
       ->delimiter(',')
       ->expected(3);
-  verb->add_option("--gate", flags->gate, "probability of the gate; 0: none")->check(CLI::Range(0.0, 0.999999));
+  verb->add_option("--gate", flags->gate, "probability of the gate; 0: none")
+      ->check(CLI::Range(0.0, 0.999999));
   verb->add_option("--update", flags->update, "all observations of a step at once, or one by one")
       ->check(CLI::IsMember({"batch", "sequential"}));
   verb->add_option("--record", flags->record,

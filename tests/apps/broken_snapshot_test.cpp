@@ -18,7 +18,9 @@ slam::Snapshot sound() {
   return simulation.filter().snapshot();
 }
 
-TEST(BrokenSnapshot, SoundOneIsNotBroken) { EXPECT_EQ(brokenness(sound()), std::nullopt); }
+TEST(BrokenSnapshot, SoundOneIsNotBroken) {
+  EXPECT_EQ(brokenness(sound()), std::nullopt);
+}
 
 TEST(BrokenSnapshot, ExactlyKnownStartPoseIsNotBroken) {
   slam::Snapshot snapshot;

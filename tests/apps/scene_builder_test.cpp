@@ -97,8 +97,7 @@ TEST(SceneBuilder, MinMeanMaxStandsUnderneathAndAboveTheMeanForTheViewer) {
 
 TEST(SceneBuilder, SelectedShowsThePairsOfThePickedFeatureOnly) {
   const Shown shown = endOfRun();
-  const engine::Scene scene =
-      sceneOf(shown, {.mode = slam::PairMode::selected, .selected = {3}});
+  const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::selected, .selected = {3}});
   EXPECT_EQ(scene.ellipsoids.size(), 14U);
 }
 

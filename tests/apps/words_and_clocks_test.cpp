@@ -15,9 +15,13 @@ using namespace std::chrono_literals;
 
 const std::vector<std::string> kVerbs{"demo", "monitor", "simulate", "slam", "info", "convert"};
 
-TEST(NearestWord, FindsATransposition) { EXPECT_EQ(nearestWord("slma", kVerbs), "slam"); }
+TEST(NearestWord, FindsATransposition) {
+  EXPECT_EQ(nearestWord("slma", kVerbs), "slam");
+}
 
-TEST(NearestWord, FindsAMissingLetter) { EXPECT_EQ(nearestWord("montor", kVerbs), "monitor"); }
+TEST(NearestWord, FindsAMissingLetter) {
+  EXPECT_EQ(nearestWord("montor", kVerbs), "monitor");
+}
 
 TEST(NearestWord, HasNothingForAnotherWord) {
   EXPECT_EQ(nearestWord("xyzzyplugh", kVerbs), std::nullopt);
@@ -43,11 +47,8 @@ TEST(RunClock, FramesWithoutStampsAreLaidOnTheStart) {
 }
 
 TEST(RunClock, RateAndOffsetMoveTheRunNotTheFrame) {
-  const RunClock clock({.run_start = 10s,
-                        .first_frame = 0s,
-                        .frames_stamped = false,
-                        .rate = 4.0,
-                        .offset = 500ms});
+  const RunClock clock(
+      {.run_start = 10s, .first_frame = 0s, .frames_stamped = false, .rate = 4.0, .offset = 500ms});
   EXPECT_EQ(clock.runTime(0s), 12s);
   EXPECT_EQ(clock.runTime(1s), 16s);
 }

@@ -7,9 +7,9 @@
 namespace slamscope::apps {
 namespace {
 
-constexpr double kFarAway = 1e6;         // m
-constexpr double kAsymmetry = 1e-4;      // of the largest variance; float32 logs show 1e-7
-constexpr double kIndefinite = 1e-5;     // of the scaled matrix; 6-digit logs round by 1e-6
+constexpr double kFarAway = 1e6;      // m
+constexpr double kAsymmetry = 1e-4;   // of the largest variance; float32 logs show 1e-7
+constexpr double kIndefinite = 1e-5;  // of the scaled matrix; 6-digit logs round by 1e-6
 
 bool indefinite(Eigen::MatrixXd P) {
   // Scaled by √diag, and lifted by what rounding may have taken.
@@ -31,7 +31,8 @@ std::optional<std::string> brokenness(const slam::Snapshot& snapshot) {
     if (P(k, k) < 0.0) return "variance " + std::to_string(k) + " is negative";
     largest = std::max(largest, P(k, k));
   }
-  if (snapshot.asymmetry.value_or(0.0) > kAsymmetry * largest) return "the covariance is asymmetric";
+  if (snapshot.asymmetry.value_or(0.0) > kAsymmetry * largest)
+    return "the covariance is asymmetric";
   if (snapshot.diagonal_only) return std::nullopt;
   if (P.size() <= kLargestFactored) {
     if (indefinite(P.dense())) return "the covariance is indefinite";

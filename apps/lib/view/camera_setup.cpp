@@ -15,48 +15,47 @@ namespace {
 using std::chrono::nanoseconds;
 
 /// Half the side of the square of floor that the default overhead camera sees whole (m).
-constexpr double kLabHalfSide = 1.45;
+constexpr double kLabHalfSide = 1.46;
 /// A turn of the map in the room, so that nothing in the picture is axis-aligned by accident.
 constexpr double kLabMapTurn = 0.12;  // rad
 
-struct Extent {
-  Eigen::Vector2d centre = slam::kLoopCentre;
-  double half_side = 0.0;
-};
-
-/// The square about all that truly happens.
-Extent extentOf(const RunTruth& truth) {
+/// All that truly happens, in the frame of the map.
+Eigen::AlignedBox2d extentOf(const RunTruth& truth) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& feature : truth.features) box.extend(feature);
   constexpr int kSamples = 400;
   for (int k = 0; k <= kSamples; ++k) {
-    const Eigen::Vector2d position =
-        truth.pose(truth.start + (truth.end - truth.start) / kSamples * k).head<2>();
-    box.extend(position);
+    const nanoseconds time = truth.start + (truth.end - truth.start) / kSamples * k;
+    box.extend(Eigen::Vector2d(truth.pose(time).head<2>()));
   }
-  return {box.center(), 0.5 * box.sizes().maxCoeff()};
+  return box;
 }
 
-/// Puts the scene of the run into the room: the paper's experiment at full size with its loop in the
-/// middle, anything larger scaled to fit.
+/// Half the side of the square about `centre` that holds the box.
+double reachFrom(const Eigen::Vector2d& centre, const Eigen::AlignedBox2d& box) {
+  return std::max((box.max() - centre).maxCoeff(), (centre - box.min()).maxCoeff());
+}
+
+/// Puts the scene of the run into the room: the paper's experiment at full size with its loop in
+/// the middle, anything larger scaled to fit.
 void placeMap(CameraSetup& setup, const MonitorOptions& options, const RunTruth& truth) {
-  Extent extent;
-  const Extent all = extentOf(truth);
-  const double reach = std::max((all.centre - extent.centre).cwiseAbs().maxCoeff() + all.half_side, 1e-3);
-  if (options.map_scale) {
-    setup.map_scale = *options.map_scale;
-    if (setup.map_scale * reach > kLabHalfSide) extent = all;
-  } else if (reach > kLabHalfSide * 1.02) {
-    extent = all;
-    setup.map_scale = 1.0 / (std::ceil(10.0 * all.half_side / kLabHalfSide) / 10.0);
+  const Eigen::AlignedBox2d box = extentOf(truth);
+  Eigen::Vector2d centre = slam::kLoopCentre;
+  const double given = options.map_scale.value_or(1.0);
+  if (given * reachFrom(centre, box) > kLabHalfSide) centre = box.center();
+  const double reach = reachFrom(centre, box);
+  setup.map_scale = given;
+  if (!options.map_scale && reach > kLabHalfSide) {
+    setup.map_scale = 1.0 / (std::ceil(10.0 * reach / kLabHalfSide) / 10.0);
     char note[120];
-    std::snprintf(note, sizeof note,
-                  "the run reaches over %.3g m: the lab shows it at 1:%.3g (--map-scale says otherwise)",
-                  2.0 * all.half_side, 1.0 / setup.map_scale);
+    std::snprintf(
+        note, sizeof note,
+        "the run reaches over %.3g m: the lab shows it at 1:%.3g (--map-scale says otherwise)",
+        2.0 * reach, 1.0 / setup.map_scale);
     setup.notes.emplace_back(note);
   }
   const Eigen::Rotation2Dd turn(kLabMapTurn);
-  const Eigen::Vector2d origin = -(setup.map_scale * (turn * extent.centre));
+  const Eigen::Vector2d origin = -(setup.map_scale * (turn * centre));
   setup.lab->T_world_map = Eigen::Translation3d(origin.x(), origin.y(), 0.0) *
                            Eigen::AngleAxisd(kLabMapTurn, Eigen::Vector3d::UnitZ());
 }
@@ -90,7 +89,8 @@ CameraSetup openLab(const MonitorOptions& options, const std::optional<RunTruth>
     addTruth(setup, options, *truth);
   } else {
     setup.notes.emplace_back(
-        "the run carries no truth: the lab shows the floor and the robot's tag at the map's origin");
+        "the run carries no truth: the lab shows the floor and the robot's tag at the map's "
+        "origin");
     lab.T_world_map = Eigen::AngleAxisd(kLabMapTurn, Eigen::Vector3d::UnitZ());
   }
   setup.info = lab.camera;
@@ -100,9 +100,8 @@ CameraSetup openLab(const MonitorOptions& options, const std::optional<RunTruth>
   for (const tracking::LabTag& tag : lab.tags) {
     layout.tags.push_back({tag.id, tag.size, tag.T_world_tag});
   }
-  setup.registration.robot = tracking::RobotTag{.id = lab.robot_tag_id,
-                                                .size_m = lab.robot_tag_size,
-                                                .T_robot_tag = lab.T_robot_tag};
+  setup.registration.robot = tracking::RobotTag{
+      .id = lab.robot_tag_id, .size_m = lab.robot_tag_size, .T_robot_tag = lab.T_robot_tag};
   return setup;
 }
 
@@ -111,7 +110,8 @@ tracking::CameraInfo guessedInfo(int width, int height) {
   tracking::CameraInfo info;
   info.width = width;
   info.height = height;
-  info.K << 0.8 * width, 0.0, 0.5 * (width - 1), 0.0, 0.8 * width, 0.5 * (height - 1), 0.0, 0.0, 1.0;
+  info.K << 0.8 * width, 0.0, 0.5 * (width - 1), 0.0, 0.8 * width, 0.5 * (height - 1), 0.0, 0.0,
+      1.0;
   return info;
 }
 
@@ -147,7 +147,8 @@ CameraSetup openRealCamera(const MonitorOptions& options) {
   if (options.camera_info.empty()) {
     setup.info = guessedInfo(first->width, first->height);
     setup.calibrated = false;
-    setup.notes.emplace_back("no --camera-info: intrinsics are guessed, the picture is uncalibrated");
+    setup.notes.emplace_back(
+        "no --camera-info: intrinsics are guessed, the picture is uncalibrated");
   } else {
     setup.info = tracking::readCameraInfo(options.camera_info);
     if (setup.info.width != first->width || setup.info.height != first->height) {
@@ -168,7 +169,8 @@ void chooseRobot(CameraSetup& setup, const MonitorOptions& options) {
   const bool room_known = !registration.layout.tags.empty() || registration.camera_pose;
   if (options.robot == "none") {
     if (!room_known) {
-      throw std::runtime_error("--robot none needs --tags or --camera-pose to say where the map is");
+      throw std::runtime_error(
+          "--robot none needs --tags or --camera-pose to say where the map is");
     }
     registration.robot.reset();
   } else if (!options.robot.empty()) {
@@ -196,8 +198,8 @@ CameraSetup openCamera(const MonitorOptions& options, const std::optional<RunTru
   std::uint64_t count = setup.source->count().value_or(0);
   if (options.frames > 0) count = count > 0 ? std::min(count, options.frames) : options.frames;
   if (count > 0) {
-    registration.frames = static_cast<int>(
-        std::clamp<std::uint64_t>((count + 1) / 2, 1, static_cast<std::uint64_t>(registration.frames)));
+    registration.frames = static_cast<int>(std::clamp<std::uint64_t>(
+        (count + 1) / 2, 1, static_cast<std::uint64_t>(registration.frames)));
   }
   return setup;
 }

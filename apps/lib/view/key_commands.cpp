@@ -85,7 +85,11 @@ void KeyCommands::press(char32_t key) {
   }
 }
 
-bool KeyCommands::takeStep() { return std::exchange(step_, false); }
-bool KeyCommands::takeScreenshot() { return std::exchange(screenshot_, false); }
+bool KeyCommands::takeStep() {
+  return std::exchange(step_, false);
+}
+bool KeyCommands::takeScreenshot() {
+  return std::exchange(screenshot_, false);
+}
 
 }  // namespace slamscope::apps

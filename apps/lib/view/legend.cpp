@@ -62,9 +62,10 @@ std::vector<Row> rowsOf(const Legend& legend) {
   rows.push_back({colour::kEllipsoid, std::string(three ? "least, mean, greatest" : "relative") +
                                           " covariance, " + axisText(legend.axis)});
   if (legend.clusters > 0) {
-    rows.push_back({{}, format("%d clusters, cut at ", legend.clusters) +
-                            lengthText(legend.cluster_cut) +
-                            (legend.automatic_cut ? " (automatic)" : "")});
+    rows.push_back({{},
+                    format("%d clusters, cut at ", legend.clusters) +
+                        lengthText(legend.cluster_cut) +
+                        (legend.automatic_cut ? " (automatic)" : "")});
     rows.back().swatch.a = 0.0F;
   }
   return rows;
@@ -159,9 +160,8 @@ void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole
     y += 12.0;
     addText(barText(legend, length), kMarginPx + kPaddingPx);
   }
-  scene.rects[panel] = {.min_px = {kMarginPx, top},
-                        .max_px = {right + kPaddingPx, top + height},
-                        .colour = kPanel};
+  scene.rects[panel] = {
+      .min_px = {kMarginPx, top}, .max_px = {right + kPaddingPx, top + height}, .colour = kPanel};
 }
 
 void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAtlas& fonts) {
@@ -177,9 +177,11 @@ void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAt
     const auto side = pixel(cone.tip + Eigen::Vector3d(cone.radius, 0.0, cone.height));
     if (!tip || !rim || !side) continue;
     const Eigen::Vector2d radius = Eigen::Vector2d::Constant((*side - *rim).norm());
-    obstacles.push_back({.min_px = tip->cwiseMin(*rim - radius), .max_px = tip->cwiseMax(*rim + radius)});
+    obstacles.push_back(
+        {.min_px = tip->cwiseMin(*rim - radius), .max_px = tip->cwiseMax(*rim + radius)});
   }
-  for (const engine::ScreenRect& rect : scene.rects) obstacles.push_back({rect.min_px, rect.max_px});
+  for (const engine::ScreenRect& rect : scene.rects)
+    obstacles.push_back({rect.min_px, rect.max_px});
 
   std::vector<engine::LabelRequest> requests;
   std::vector<engine::Label> in_view;
@@ -192,9 +194,8 @@ void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAt
                         .last_offset_px = {}});
     in_view.push_back(std::move(label));
   }
-  const engine::PixelBox picture{
-      .min_px = Eigen::Vector2d::Zero(),
-      .max_px = Eigen::Vector2d(view.camera.width, view.camera.height)};
+  const engine::PixelBox picture{.min_px = Eigen::Vector2d::Zero(),
+                                 .max_px = Eigen::Vector2d(view.camera.width, view.camera.height)};
   const auto offsets = engine::placeLabels(requests, obstacles, {.picture = picture});
   scene.labels.clear();
   for (std::size_t k = 0; k < in_view.size(); ++k) {

@@ -26,7 +26,9 @@ namespace {
 using std::chrono::nanoseconds;
 using tracking::RegistrationState;
 
-double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
+double seconds(nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
 
 /// Milliseconds since it was made or last asked.
 class StopWatch {
@@ -127,12 +129,11 @@ Monitor::State::State(const MonitorOptions& request)
       detector(detectorOptions(setup)),
       registration(setup.registration, tracking::CameraModel(setup.info)),
       frames(*setup.source),
-      gpu(std::make_shared<engine::Gpu>(
-          engine::GpuOptions{.device = request.device,
-                             .validation = request.validation,
-                             .instance_extensions = request.window
-                                                        ? engine::windowInstanceExtensions()
-                                                        : std::vector<std::string>{}})),
+      gpu(std::make_shared<engine::Gpu>(engine::GpuOptions{
+          .device = request.device,
+          .validation = request.validation,
+          .instance_extensions =
+              request.window ? engine::windowInstanceExtensions() : std::vector<std::string>{}})),
       offscreen(gpu, camera.pinhole.width, camera.pinhole.height) {
   choices = {.mode = request.mode,
              .axis = request.axis,
@@ -205,7 +206,7 @@ void Monitor::State::detect(const tracking::Frame& frame) {
 
 SceneStyle Monitor::State::style() const {
   // Cones and arrow have one size on the floor, so chosen that they suit the picture.
-  constexpr double kConePx = 46.0;
+  constexpr double kConePx = 64.0;
   const double cone = kConePx * metres_per_px;
   return {.mode = choices.mode,
           .axis = choices.axis,
@@ -214,16 +215,16 @@ SceneStyle Monitor::State::style() const {
           .covariance_rings = choices.covariance_rings,
           .labels = choices.labels,
           .cone_height = cone,
-          .cone_radius = 0.13 * cone,
-          .arrow_length = 1.4 * cone,
+          .cone_radius = 0.15 * cone,
+          .arrow_length = 1.1 * cone,
           .viewer_up = registered()->T_camera_map.linear().transpose() * -Eigen::Vector3d::UnitY()};
 }
 
 std::string Monitor::State::runLine() const {
   char text[200];
   const slam::Snapshot& snapshot = *slam.newest();
-  const double age = feed->live() ? seconds(slam.sinceArrival())
-                                  : seconds(run_time - snapshot.time);
+  const double age =
+      feed->live() ? seconds(slam.sinceArrival()) : seconds(run_time - snapshot.time);
   std::snprintf(text, sizeof text,
                 "t %.2f s · record %llu, %.2f s old · %d features · %zu ellipsoids · mode %s",
                 seconds(snapshot.time), static_cast<unsigned long long>(snapshot.sequence),
@@ -328,7 +329,8 @@ FrameReport Monitor::State::frameReport() const {
   int known = 0;
   for (std::size_t k = 0; k < snapshot.ids.size(); ++k) {
     const Eigen::Vector2d& feature = snapshot.features[k];
-    const Eigen::Vector3d p_scene(setup.map_scale * feature.x(), setup.map_scale * feature.y(), 0.0);
+    const Eigen::Vector3d p_scene(setup.map_scale * feature.x(), setup.map_scale * feature.y(),
+                                  0.0);
     const Eigen::Vector3d p_eye = picture.view.T_eye_scene * p_scene;
     if (p_eye.z() <= 0.0) continue;
     const Eigen::Vector2d px = engine::project(pinhole, p_eye);
@@ -346,7 +348,8 @@ FrameReport Monitor::State::frameReport() const {
     for (std::size_t k = 0; k < world.ids.size(); ++k) {
       const auto index = snapshot.indexOf(world.ids[k]);
       if (!index) continue;
-      squares += (snapshot.features[static_cast<std::size_t>(*index)] - world.features[k]).squaredNorm();
+      squares +=
+          (snapshot.features[static_cast<std::size_t>(*index)] - world.features[k]).squaredNorm();
       ++known;
     }
   }
@@ -372,12 +375,24 @@ void Monitor::State::finish() {
 Monitor::Monitor(const MonitorOptions& options) : state_(std::make_unique<State>(options)) {}
 Monitor::~Monitor() = default;
 
-bool Monitor::next() { return state_->next(); }
-void Monitor::draw() { state_->draw(); }
-void Monitor::finish() { state_->finish(); }
-const Monitor::Picture& Monitor::picture() const { return state_->picture; }
-const engine::Image& Monitor::drawn() const { return state_->pixels.front(); }
-Monitor::Choices& Monitor::choices() { return state_->choices; }
+bool Monitor::next() {
+  return state_->next();
+}
+void Monitor::draw() {
+  state_->draw();
+}
+void Monitor::finish() {
+  state_->finish();
+}
+const Monitor::Picture& Monitor::picture() const {
+  return state_->picture;
+}
+const engine::Image& Monitor::drawn() const {
+  return state_->pixels.front();
+}
+Monitor::Choices& Monitor::choices() {
+  return state_->choices;
+}
 
 bool Monitor::paced() const {
   return !state_->setup.source->live() && (state_->options.window || state_->feed->live());
@@ -385,8 +400,12 @@ bool Monitor::paced() const {
 double Monitor::secondsShown() const {
   return state_->first_time ? seconds(state_->frame_time - *state_->first_time) : 0.0;
 }
-double Monitor::frameSeconds() const { return seconds(state_->frame_step); }
-std::uint64_t Monitor::framesShown() const { return state_->frame_count; }
+double Monitor::frameSeconds() const {
+  return seconds(state_->frame_step);
+}
+std::uint64_t Monitor::framesShown() const {
+  return state_->frame_count;
+}
 double Monitor::progress() const {
   const State& state = *state_;
   if (state.options.frames > 0) {
@@ -399,8 +418,14 @@ double Monitor::progress() const {
   return seconds(state.run_time - state.truth->start) /
          std::max(seconds(state.truth->end - state.truth->start), 1e-9);
 }
-std::string Monitor::status() const { return state_->registration.status(); }
-const std::vector<std::string>& Monitor::notes() const { return state_->setup.notes; }
-const std::shared_ptr<engine::Gpu>& Monitor::gpu() const { return state_->gpu; }
+std::string Monitor::status() const {
+  return state_->registration.status();
+}
+const std::vector<std::string>& Monitor::notes() const {
+  return state_->setup.notes;
+}
+const std::shared_ptr<engine::Gpu>& Monitor::gpu() const {
+  return state_->gpu;
+}
 
 }  // namespace slamscope::apps

@@ -13,14 +13,15 @@
 
 namespace slamscope::apps {
 
-/// The overhead view: frames of a camera, registered, with what the filter believes drawn over them.
+/// The overhead view: frames of a camera, registered, with what the filter believes drawn over
+/// them.
 ///
 ///   Monitor monitor(options);
 ///   while (monitor.next()) monitor.draw();
 ///   monitor.finish();
 ///
-/// The paper's render cycle (section 3.1): take a frame and where it was taken from, take the newest
-/// state of SLAM, draw.
+/// The paper's render cycle (section 3.1): take a frame and where it was taken from, take the
+/// newest state of SLAM, draw.
 class Monitor {
  public:
   /// Opens everything. Throws std::runtime_error, one line, where something can't be had.

@@ -26,9 +26,9 @@ struct MonitorOptions {
   std::string slam = "simulate";  ///< run, `simulate`, `-`, `tcp://HOST:PORT`
   slam::SimulationOptions simulation;
 
-  double fps = 0.0;        ///< 0: the source's own, or 30
-  double slam_rate = 1.0;  ///< seconds of the run per second of the camera
-  double time_offset = 0.0;  ///< s, added to a frame's time before the run is asked
+  double fps = 0.0;                 ///< 0: the source's own, or 30
+  double slam_rate = 1.0;           ///< seconds of the run per second of the camera
+  double time_offset = 0.0;         ///< s, added to a frame's time before the run is asked
   std::optional<double> map_scale;  ///< absent: 1, or what fits a lab
 
   slam::PairMode mode = slam::PairMode::all;
@@ -40,8 +40,8 @@ struct MonitorOptions {
   bool labels = true;
   bool legend = true;
 
-  int width = 0, height = 0;  ///< of the drawn picture; 0: the camera's
-  std::uint64_t frames = 0;   ///< to draw; 0: to the end
+  int width = 0, height = 0;      ///< of the drawn picture; 0: the camera's
+  std::uint64_t frames = 0;       ///< to draw; 0: to the end
   std::filesystem::path output;   ///< NAME.mp4, NAME-%05d.png
   std::filesystem::path picture;  ///< one PNG: the last frame
   std::filesystem::path compare;  ///< one PNG: the run's start and end beside each other

@@ -71,7 +71,8 @@ void MonitorReport::addStage(const std::string& stage, double milliseconds) {
 ordered_json MonitorReport::summary() const {
   ordered_json stages = ordered_json::object();
   for (const auto& [name, times] : stage_ms_) {
-    stages[name] = {{"median", orNull(quantile(times, 0.5))}, {"p95", orNull(quantile(times, 0.95))}};
+    stages[name] = {{"median", orNull(quantile(times, 0.5))},
+                    {"p95", orNull(quantile(times, 0.95))}};
   }
   return {{"overlay_error_px",
            {{"median", orNull(quantile(overlay_errors_px_, 0.5))},

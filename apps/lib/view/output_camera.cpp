@@ -48,9 +48,10 @@ std::shared_ptr<const engine::Image> toImage(const tracking::Frame& frame) {
   auto image = std::make_shared<engine::Image>();
   image->width = frame.width;
   image->height = frame.height;
-  image->rgba.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) *
-                     4);
-  const cv::Mat bgr(frame.height, frame.width, CV_8UC3, const_cast<std::uint8_t*>(frame.bgr.data()));
+  image->rgba.resize(static_cast<std::size_t>(frame.width) *
+                     static_cast<std::size_t>(frame.height) * 4);
+  const cv::Mat bgr(frame.height, frame.width, CV_8UC3,
+                    const_cast<std::uint8_t*>(frame.bgr.data()));
   cv::Mat rgba(frame.height, frame.width, CV_8UC4, image->rgba.data());
   cv::cvtColor(bgr, rgba, cv::COLOR_BGR2RGBA);
   return image;

@@ -15,8 +15,8 @@ struct OutputCamera {
   std::shared_ptr<const engine::LookupMap> map;  ///< none where pixels are the source's own
 };
 
-/// Same field of view as the source (as K tells it), scaled by one factor and centred; square pixels
-/// stay square. width, height ≤ 0: the source's size.
+/// Same field of view as the source (as K tells it), scaled by one factor and centred; square
+/// pixels stay square. width, height ≤ 0: the source's size.
 [[nodiscard]] OutputCamera makeOutputCamera(const tracking::CameraInfo& source, int width,
                                             int height);
 

@@ -13,7 +13,8 @@ namespace slamscope::apps {
 class PictureOutput {
  public:
   virtual ~PictureOutput() = default;
-  /// Throws std::runtime_error when the picture can't be written or has another size than the first.
+  /// Throws std::runtime_error when the picture can't be written or has another size than the
+  /// first.
   virtual void write(const engine::Image& picture) = 0;
   /// Closes the output; without it a video is left under a temporary name that is then removed.
   virtual void finish() = 0;

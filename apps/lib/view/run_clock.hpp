@@ -7,8 +7,8 @@
 
 namespace slamscope::apps {
 
-/// From a frame's time to the run's. Frames and run that were stamped by one clock stay as they are;
-/// else the first frame is laid on the run's start.
+/// From a frame's time to the run's. Frames and run that were stamped by one clock stay as they
+/// are; else the first frame is laid on the run's start.
 class RunClock {
  public:
   using nanoseconds = std::chrono::nanoseconds;
@@ -17,8 +17,8 @@ class RunClock {
     nanoseconds run_start{};
     nanoseconds first_frame{};
     bool frames_stamped = false;
-    double rate = 1.0;        ///< seconds of the run per second of the camera
-    nanoseconds offset{};     ///< added to a frame's time
+    double rate = 1.0;     ///< seconds of the run per second of the camera
+    nanoseconds offset{};  ///< added to a frame's time
   };
 
   /// Stamps further apart than this come from different clocks.

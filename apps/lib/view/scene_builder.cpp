@@ -70,18 +70,15 @@ class SceneBuilder {
     return {style_.map_scale * p_map.x(), style_.map_scale * p_map.y(), 0.0};
   }
   [[nodiscard]] engine::Cone cone(const Eigen::Vector3d& tip, const engine::Rgba& colour) const {
-    return {.tip = tip,
-            .height = style_.cone_height,
-            .radius = style_.cone_radius,
-            .colour = colour};
+    return {
+        .tip = tip, .height = style_.cone_height, .radius = style_.cone_radius, .colour = colour};
   }
   /// Half the ellipsoid's height as the viewer sees it.
   [[nodiscard]] double reach(const engine::Ellipsoid& ellipsoid) const {
     return (ellipsoid.axes.transpose() * style_.viewer_up).norm();
   }
   void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    scene_.lines.push_back(
-        {.points = {from, to}, .width_px = 1.2, .colour = colour::kPair});
+    scene_.lines.push_back({.points = {from, to}, .width_px = 1.1, .colour = colour::kPair});
   }
 
   /// The k-sigma ellipse of the 2×2 block at `row`, as an outline on the floor.
@@ -112,9 +109,8 @@ engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d, const Eigen::Vec
   const Eigen::Matrix2d directions = principal.directions();
   const double major = style.map_scale * style.axis.semiAxis(principal.eigenvalues.x());
   const double minor = style.map_scale * style.axis.semiAxis(principal.eigenvalues.y());
-  engine::Ellipsoid ellipsoid{.centre = centre,
-                              .axes = Eigen::Matrix3d::Zero(),
-                              .colour = colour::kEllipsoid};
+  engine::Ellipsoid ellipsoid{
+      .centre = centre, .axes = Eigen::Matrix3d::Zero(), .colour = colour::kEllipsoid};
   ellipsoid.axes.block<2, 1>(0, 0) = major * directions.col(0);
   ellipsoid.axes.block<2, 1>(0, 1) = minor * directions.col(1);
   ellipsoid.axes(2, 2) = minor;

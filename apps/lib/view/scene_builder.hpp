@@ -13,8 +13,8 @@
 
 namespace slamscope::apps {
 
-/// Choices of the user and sizes that suit the view. Lengths are of the scene (m on the real floor);
-/// the map is drawn at `map_scale`.
+/// Choices of the user and sizes that suit the view. Lengths are of the scene (m on the real
+/// floor); the map is drawn at `map_scale`.
 struct SceneStyle {
   slam::PairMode mode = slam::PairMode::all;
   slam::AxisScale axis;
@@ -39,7 +39,7 @@ namespace colour {
 inline constexpr engine::Rgba kRobot{0.12F, 0.80F, 0.22F, 1.0F};
 inline constexpr engine::Rgba kHeading{1.00F, 0.84F, 0.05F, 1.0F};
 inline constexpr engine::Rgba kFeature{0.05F, 0.85F, 0.95F, 1.0F};
-inline constexpr engine::Rgba kPair{1.00F, 0.90F, 0.10F, 0.75F};
+inline constexpr engine::Rgba kPair{1.00F, 0.90F, 0.10F, 0.60F};
 inline constexpr engine::Rgba kEllipsoid{0.90F, 0.12F, 0.10F, 1.0F};
 }  // namespace colour
 

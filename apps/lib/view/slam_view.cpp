@@ -37,8 +37,8 @@ void SlamView::take(const slam::SnapshotPtr& snapshot) {
   if (stopped_) return;
   if (const auto why = brokenness(*snapshot)) {
     char where[64];
-    std::snprintf(where, sizeof where, "record %llu (t = %.3f s): ",
-                  static_cast<unsigned long long>(snapshot->sequence),
+    std::snprintf(where, sizeof where,
+                  "record %llu (t = %.3f s): ", static_cast<unsigned long long>(snapshot->sequence),
                   std::chrono::duration<double>(snapshot->time).count());
     stopped_ = where + *why;
     return;

@@ -23,8 +23,8 @@ class Pace {
   }
   /// Time stands still while paused or late: start again from here.
   void rebase(double shown) {
-    start_ = Clock::now() - std::chrono::duration_cast<Clock::duration>(
-                                std::chrono::duration<double>(shown));
+    start_ = Clock::now() -
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(shown));
   }
 
  private:
@@ -50,9 +50,9 @@ void handle(const engine::Input& input, KeyCommands& keys) {
 void runInWindow(Monitor& monitor, const std::string& title) {
   if (!monitor.next()) return;
   monitor.draw();
-  engine::Window window(monitor.gpu(), {.title = title,
-                                        .width = monitor.drawn().width,
-                                        .height = monitor.drawn().height});
+  engine::Window window(
+      monitor.gpu(),
+      {.title = title, .width = monitor.drawn().width, .height = monitor.drawn().height});
   KeyCommands keys(monitor.choices());
   keys.say(KeyCommands::kHelp);
   Pace pace;
