@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT
+"""simulate, slam, info, convert: what works without camera and device."""
+import os
+import pathlib
+import unittest
+
+import program
+
+RECORD = ('{"time_s": %s, "pose": [0, 0, 0], "ids": [4], "features": [[1.0, 0.2]], '
+          '"covariance": [1,0,1,0,0,1,0,0,0,1,0,0,0,0,1]}\n')
+HEADER = '{"format": "slamscope", "version": 1, "sensor": "range-bearing"}\n'
+
+
+class Help(program.InAFolder):
+    def test_each_verb_has_an_example(self):
+        for verb in ("simulate", "slam", "info", "convert"):
+            status, text, _ = self.run_here(verb, "--help")
+            self.assertEqual(status, 0)
+            self.assertIn("Example", text)
+
+    def test_an_unknown_verb_gets_the_nearest(self):
+        self.refused("simulte", saying="did you mean simulate?")
+
+    def test_an_unknown_option_gets_the_nearest(self):
+        self.refused("simulate", "--wrold", "uniform", saying="did you mean --world?")
+
+    def test_nothing_asked_is_said(self):
+        self.refused(saying="subcommand")
+
+    def test_an_unknown_fault_lists_the_known(self):
+        self.refused("simulate", "--fault", "papre", saying="paper")
+
+
+class Runs(program.InAFolder):
+    def test_simulate_convert_info_agree(self):
+        self.assertEqual(self.run_here("simulate", "--loops", 1, "-o", "a.jsonl")[0], 0)
+        self.assertEqual(self.run_here("convert", "a.jsonl", "b.jsonl.zst")[0], 0)
+        self.assertEqual(self.run_here("convert", "b.jsonl.zst", "c.jsonl")[0], 0)
+        self.assertEqual((self.folder / "a.jsonl").read_text(), (self.folder / "c.jsonl").read_text())
+        status, text, _ = self.run_here("info", "b.jsonl.zst", "--json")
+        self.assertEqual(status, 0)
+        info = program.json.loads(text)
+        self.assertEqual(info["features_at_end"], 15)
+        self.assertTrue(info["truth"])
+
+    def test_the_same_seed_gives_the_same_run(self):
+        for name in ("a", "b"):
+            self.run_here("simulate", "--seed", 7, "--loops", 1, "-o", name + ".jsonl")
+        self.run_here("simulate", "--seed", 8, "--loops", 1, "-o", "c.jsonl")
+        a, b, c = ((self.folder / (n + ".jsonl")).read_text() for n in "abc")
+        self.assertEqual(a, b)
+        self.assertNotEqual(a, c)
+
+    def test_a_missing_file(self):
+        self.refused("info", "none.jsonl", saying="none.jsonl")
+
+    def test_an_ending_that_is_not_supported(self):
+        self.write("run.bag", "x")
+        self.refused("info", "run.bag", saying=["run.bag", ".jsonl"])
+
+    def test_an_empty_file(self):
+        self.write("run.jsonl", "")
+        self.refused("info", "run.jsonl", saying="run.jsonl")
+
+    def test_text_for_a_number(self):
+        self.write("run.jsonl", HEADER + (RECORD % '"noon"'))
+        self.refused("info", "run.jsonl", saying=["run.jsonl:2", "time_s"])
+
+    def test_time_that_goes_back(self):
+        self.write("run.jsonl", HEADER + RECORD % 2.0 + RECORD % 1.0)
+        self.refused("info", "run.jsonl", saying=["run.jsonl:3", "time"])
+
+    def test_a_cut_last_line_is_used_up_to_there(self):
+        self.write("run.jsonl", HEADER + RECORD % 1.0 + (RECORD % 2.0)[:40])
+        status, text, errors = self.run_here("info", "run.jsonl", "--json")
+        self.assertEqual(status, 0, errors)
+        self.assertEqual(program.json.loads(text)["records"], 1)
+        self.assertIn("warning", errors)
+
+    def test_nothing_half_written_is_left(self):
+        self.write("run.jsonl", HEADER + RECORD % 2.0 + RECORD % 1.0)
+        self.refused("convert", "run.jsonl", "out.jsonl", saying="run.jsonl:3")
+        self.assertEqual([f.name for f in self.folder.iterdir()], ["run.jsonl"])
+
+
+class Csv(program.InAFolder):
+    def data(self, odometry="0,1,0\n1,1,0\n2,1,0\n"):
+        self.write("d/odometry.csv", "time_s,forward_mps,turn_radps\n" + odometry)
+        self.write("d/range_bearing.csv",
+                   "time_s,id,range_m,bearing_rad\n0.5,7,2.0,0.3\n1.5,7,1.2,0.5\n1.5,9,3.0,-0.2\n")
+
+    def test_anybodys_data(self):
+        self.data()
+        status, _, errors = self.run_here("slam", "--csv", "d", "--score-json", "s.json", "-o", "r.jsonl")
+        self.assertEqual(status, 0, errors)
+        self.assertEqual(self.load("s.json")["features_found"], 2)
+
+    def test_time_that_goes_back_names_file_and_line(self):
+        self.data(odometry="0,1,0\n2,1,0\n1,1,0\n")
+        self.refused("slam", "--csv", "d", saying=["odometry.csv:4"])
+
+    def test_text_for_a_number_names_the_column(self):
+        self.data(odometry="0,fast,0\n")
+        self.refused("slam", "--csv", "d", saying=["odometry.csv:2", "forward_mps"])
+
+    def test_a_missing_directory(self):
+        self.refused("slam", "--csv", "none", saying="none")
+
+    def test_nothing_to_read(self):
+        self.refused("slam", saying="--csv")
+
+
+class Mrclam(program.InAFolder):
+    """Recorded real data: the five robots of data set 6."""
+
+    def setUp(self):
+        super().setUp()
+        source = program.HERE.parent.parent
+        data = pathlib.Path(os.environ.get("SLAMSCOPE_DATA", source.parent / "shared" / "data"))
+        self.mrclam = data / "mrclam"
+        if not self.mrclam.is_dir():
+            self.skipTest(f"recorded data is absent: {self.mrclam}")
+
+    def test_every_robot_maps_its_fifteen_landmarks(self):
+        for robot in range(1, 6):
+            status, _, errors = self.run_here("slam", "--mrclam", self.mrclam, "--robot", robot,
+                                              "--score-json", "s.json")
+            self.assertEqual(status, 0, errors)
+            score = self.load("s.json")
+            self.assertEqual(score["features_found"], 15)
+            self.assertLessEqual(score["features_rms_aligned_m"], 0.15)
+            self.assertLessEqual(score["path_rms_aligned_m"], 0.5)
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""monitor and demo: pictures without a display."""
+import os
+import pathlib
+import socket
+import subprocess
+import sys
+import time
+
+import program
+
+EKF = program.HERE.parent / "python" / "ekf.py"
+NO_DISPLAY = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+# One grey picture, 8 x 8, as a PGM.
+PGM = "P2 8 8 255\n" + "128 " * 64
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class BadInput(program.InAFolder):
+    def test_a_missing_camera(self):
+        self.refused("monitor", "--camera", "none.mp4", "--picture", "p.png", saying="none.mp4")
+
+    def test_an_empty_directory(self):
+        (self.folder / "frames").mkdir()
+        self.refused("monitor", "--camera", "frames", "--picture", "p.png", saying="frames")
+
+    def test_camera_info_of_another_size(self):
+        self.write("frames/a.pgm", PGM)
+        self.write("K.yaml", "image_width: 640\nimage_height: 480\ncamera_name: c\n"
+                   "camera_matrix: {rows: 3, cols: 3, data: [600, 0, 320, 0, 600, 240, 0, 0, 1]}\n"
+                   "distortion_model: plumb_bob\n"
+                   "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n")
+        self.refused("monitor", "--camera", "frames", "--camera-info", "K.yaml", "--picture", "p.png",
+                     saying=["640 x 480", "8 x 8"])
+
+    def test_a_finite_input_that_never_shows_a_tag(self):
+        for k in range(3):
+            self.write(f"frames/{k}.pgm", PGM)
+        self.refused("monitor", "--camera", "frames", "--output", "out.mp4", saying="never registered")
+        self.assertFalse((self.folder / "out.mp4").exists())
+
+    def test_no_vulkan_device(self):
+        # Needs the loader of Debian 12, which reads this variable.
+        self.refused("monitor", "--picture", "p.png", "--frames", 1, saying="Vulkan",
+                     env={**NO_DISPLAY, "VK_ICD_FILENAMES": "/nonexistent.json",
+                          "VK_DRIVER_FILES": "/nonexistent.json"})
+
+    def test_a_device_that_is_not_there(self):
+        self.refused("monitor", "--picture", "p.png", "--device", "Voodoo 3", saying="Voodoo 3")
+
+    def test_a_window_without_a_display(self):
+        self.refused("monitor", saying="display", env=NO_DISPLAY)
+
+    def test_an_output_of_unknown_ending(self):
+        self.refused("monitor", "--output", "out.gif", saying="out.gif")
+
+    def test_an_output_in_a_missing_folder(self):
+        self.refused("monitor", "--picture", "none/p.png", "--frames", 2, saying="none")
+
+
+class LiveFilter(program.InAFolder):
+    """A filter that nobody here wrote for: 40 lines of plain Python."""
+
+    def monitor(self, *words):
+        return subprocess.Popen([program.PROGRAM, "monitor", *map(str, words)], cwd=self.folder,
+                                stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                env=NO_DISPLAY)
+
+    def filter(self, *words, **more):
+        return subprocess.Popen([sys.executable, str(EKF), *map(str, words)], **more)
+
+    def shown(self, report):
+        return [f for f in self.load(report)["frames"] if f["drawn"]["features"] > 0]
+
+    def test_standard_input(self):
+        feeder = self.filter("--rate", 30, "--steps", 120, stdout=subprocess.PIPE)
+        done = subprocess.run([program.PROGRAM, "monitor", "--slam", "-", "--report", "r.json"],
+                              stdin=feeder.stdout, cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, env=NO_DISPLAY)
+        feeder.wait()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(len(self.shown("r.json")), 10)
+
+    def test_tcp_filter_killed_and_restarted_and_a_viewer_that_joins_late(self):
+        port = free_port()
+        viewer = self.monitor("--slam", f"tcp://127.0.0.1:{port}", "--report", "r.json",
+                              "--frames", 330)
+        feeder = None
+        for start in range(2):
+            # The filter runs before the viewer listens: it tries until somebody does.
+            feeder = self.filter("--rate", 30, "--steps", 100000, "--tcp", f"127.0.0.1:{port}")
+            time.sleep(5.0)
+            if start == 0:
+                feeder.kill()
+                feeder.wait()
+        _, errors = viewer.communicate(timeout=120)
+        feeder.kill()
+        feeder.wait()
+        self.assertEqual(viewer.returncode, 0, errors)
+        times = [f["snapshot_time_s"] for f in self.shown("r.json")]
+        self.assertGreater(len(times), 60)
+        # The second run of the filter starts its clock again.
+        self.assertTrue(any(after < before - 1.0 for before, after in zip(times, times[1:])), times[::20])
+
+
+class Films(program.InAFolder):
+    def test_numbered_pictures_and_a_picture_of_the_last(self):
+        status, _, errors = self.run_here("monitor", "--frames", 4, "--output", "o-%03d.png",
+                                          "--picture", "last.png", "--size", "640x360")
+        self.assertEqual(status, 0, errors)
+        names = sorted(f.name for f in self.folder.iterdir())
+        self.assertEqual(names, ["last.png", "o-000.png", "o-001.png", "o-002.png", "o-003.png"])
+
+    def test_a_video_is_whole_or_not_there(self):
+        status, _, errors = self.run_here("monitor", "--frames", 6, "--output", "o.mp4")
+        self.assertEqual(status, 0, errors)
+        self.assertGreater((self.folder / "o.mp4").stat().st_size, 1000)
+        self.assertEqual([f.name for f in self.folder.iterdir()], ["o.mp4"])
+
+
+if __name__ == "__main__":
+    program.main()
