@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,7 +58,8 @@ struct RegistrationResult {
   /// Of T_camera_map's right perturbation, translation (m) first, map axes.
   Matrix6d covariance = Matrix6d::Zero();
   double residual_px = 0;  ///< RMS over all corners used
-  int frames = 0, tags = 0;
+  int frames = 0;          ///< that were averaged
+  int tags = 0;            ///< in view, that fit
   /// Predicted from the covariance, root of the mean square over the floor (extent_m) in view: how
   /// far the overlay is drawn from where it belongs, in the picture and on the floor.
   double overlay_error_px = 0;
@@ -80,33 +82,38 @@ class Registration {
 
   /// The tags of one frame, in order of time.
   void add(std::chrono::nanoseconds time, std::span<const TagDetection> detections);
+  /// There are no more frames: registers with those gathered so far, if any.
+  void settle();
 
   [[nodiscard]] RegistrationState state() const { return state_; }
+  [[nodiscard]] RegistrationMode mode() const { return mode_; }
   /// Present when registered or ambiguous: of the frame added last when continuous, else stored.
   [[nodiscard]] const std::optional<RegistrationResult>& result() const { return result_; }
   /// One line for a person: "registered (plane): 30 frames, residual 0.04 px, overlay ±0.06 px,
-  /// floor ±0.3 mm", "registering: frame 12 of 30", "searching: no tag of 36h11 with id 0 in view".
+  /// floor ±0.3 mm", "registering: frame 12 of 30", "searching: no robot's tag 0 (36h11) in view".
   [[nodiscard]] std::string status() const;
-  /// What doesn't fit, named, newest state: "tag 3 does not fit the others: moved, doubled or of
-  /// another size", "robot's tag 0 looks 0.176 m wide where 0.200 m is stated". Empty when all is
-  /// well.
+  /// What doesn't fit, named: "tag 3 does not fit the others: moved, doubled or of another size",
+  /// "robot's tag 0 looks 0.176 m wide where 0.200 m is stated". Empty when all is well.
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
 
+  ~Registration();
+  Registration(Registration&&) noexcept;
+  Registration& operator=(Registration&&) noexcept;
+
  private:
-  struct View {  // what one frame has to say
-    std::chrono::nanoseconds time;
-    std::vector<TagDetection> floor, robot;
-  };
-  void gather(View view);
+  struct Parts;  // what has been gathered
+  void gather(std::span<const TagDetection> detections);
   void finish();
-  void follow(const View& view);
+  void follow(std::chrono::nanoseconds time, std::span<const TagDetection> detections);
+  void publish(RegistrationResult result, bool ambiguous);
 
   RegistrationOptions options_;
   CameraModel camera_;
+  RegistrationMode mode_ = RegistrationMode::plane;
   RegistrationState state_ = RegistrationState::searching;
   std::optional<RegistrationResult> result_;
   std::vector<std::string> problems_;
-  std::vector<View> views_;
+  std::unique_ptr<Parts> parts_;
 };
 
 /// Σ_uv = J Σ Jᵀ: how uncertain the pixel of a map point is by registration alone, px². Nothing

@@ -19,7 +19,7 @@ struct RefinedCorners {
 
 struct CornerRefinement {
   int cells = 8;  ///< of the tag's grid across the square: nothing but the edge within one cell
-  double least_side_px = 12;            ///< smaller ones are better left alone
+  double least_side_px = 20;            ///< smaller ones are better left alone (measured)
   const CameraModel* camera = nullptr;  ///< given: sides bow as its lens bends them
 };
 
