@@ -117,7 +117,8 @@ TextInput::TextInput(const std::string& path) : state_(std::make_unique<State>()
   if (std::filesystem::is_directory(path)) {
     throw std::runtime_error(path + ": expected a file, found a directory");
   }
-  state_->descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  state_->descriptor =
+      path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (state_->descriptor < 0) failSystem(path, "can't be opened");
   state_->refill();
   if (isZstd(state_->packed)) state_->zstd = ZSTD_createDStream();

@@ -16,7 +16,8 @@ enum class RunFormat { json_lines, json_lines_zst };
 /// endings, and says that others are not supported yet.
 [[nodiscard]] RunFormat runFormat(const std::string& path);
 
-/// Bytes of a file, unpacked where its content is zstd (whatever its name). Pipes can be read too.
+/// Bytes of a file, unpacked where its content is zstd (whatever its name). Pipes can be read too;
+/// "-" is standard input.
 class TextInput {
  public:
   /// Throws std::runtime_error where the file is missing, a directory or not readable.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "slam/decimal_time.hpp"
 #include "slam/jsonl.hpp"
+#include "slam/jsonl_shapes.hpp"
 #include "slam/jsonl_value.hpp"
 
 namespace slamscope::slam {
@@ -12,6 +12,7 @@ namespace {
 
 using json::fail;
 using json::Numbers;
+using json::Shapes;
 using json::Value;
 
 constexpr std::array<std::string_view, 6> kEvents{"initial",    "predict", "update",
@@ -26,103 +27,6 @@ std::size_t oneOf(const std::array<std::string_view, Size>& words, const std::st
   std::string expected = "one of";
   for (const auto known : words) expected.append(" ").append(known);
   fail(field, expected, '"' + word + '"');
-}
-
-std::string plural(std::size_t count, const std::string& word) {
-  return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
-}
-
-/// Numbers of a record whose size is known only when all of the line has been read.
-struct Shapes {
-  Numbers covariance, diagonal, features, truth_features;
-  bool has_time = false, has_pose = false, has_covariance = false, has_diagonal = false;
-
-  void reset() {
-    for (Numbers* read : {&covariance, &diagonal, &features, &truth_features}) {
-      read->values.clear();
-      read->rows.clear();
-    }
-    has_time = has_pose = has_covariance = has_diagonal = false;
-  }
-};
-
-std::vector<Eigen::Vector2d> points(const Numbers& read, std::size_t count,
-                                    std::string_view field) {
-  if (read.values.size() != 2 * count || !(read.rowsOf(2) || read.isList())) {
-    fail(field, plural(count, "pair") + " [x, y], as many as ids", read.describe());
-  }
-  std::vector<Eigen::Vector2d> result(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    result[k] = {read.values[2 * k], read.values[2 * k + 1]};
-  }
-  return result;
-}
-
-void checkDistinct(std::vector<FeatureId> ids, std::string_view field) {
-  std::sort(ids.begin(), ids.end());
-  const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end()) fail(field, "each id once", std::to_string(*twice) + " twice");
-}
-
-/// Lower triangle of n×n numbers row by row; the worst |P − Pᵀ| beside it. A number that is NaN on
-/// one side only is asymmetric beyond measure.
-std::vector<double> lowerOf(const std::vector<double>& full, std::size_t n, double& asymmetry) {
-  std::vector<double> packed;
-  packed.reserve(n * (n + 1) / 2);
-  asymmetry = 0.0;
-  for (std::size_t row = 0; row < n; ++row) {
-    for (std::size_t col = 0; col <= row; ++col) {
-      const double below = full[row * n + col];
-      const double above = full[col * n + row];
-      packed.push_back(below);
-      if (std::isnan(below) != std::isnan(above)) {
-        asymmetry = std::numeric_limits<double>::infinity();
-      } else if (below != above && std::abs(below - above) > asymmetry) {
-        asymmetry = std::abs(below - above);
-      }
-    }
-  }
-  return packed;
-}
-
-bool isRagged(const Numbers& read, std::size_t n) {
-  if (read.rows.size() != n) return false;
-  for (std::size_t row = 0; row < n; ++row) {
-    if (read.rows[row] != row + 1) return false;
-  }
-  return true;
-}
-
-void setCovariance(Snapshot& snapshot, Shapes& shapes) {
-  const std::size_t n = 3 + 2 * snapshot.ids.size() + snapshot.extra.size();
-  const int size = static_cast<int>(n);
-  Numbers& read = shapes.covariance;
-  if (!shapes.has_covariance) {
-    if (!shapes.has_diagonal) fail("covariance", "covariance or covariance_diagonal", "neither");
-    if (shapes.diagonal.values.size() != n || !shapes.diagonal.isList()) {
-      fail("covariance_diagonal", plural(n, "number"), shapes.diagonal.describe());
-    }
-    snapshot.diagonal_only = true;
-    snapshot.covariance = PackedCovariance(size);
-    for (int k = 0; k < size; ++k) {
-      snapshot.covariance(k, k) = shapes.diagonal.values[static_cast<std::size_t>(k)];
-    }
-    return;
-  }
-  const std::size_t packed = n * (n + 1) / 2;
-  if (read.values.size() == packed && (read.rows.empty() || isRagged(read, n))) {
-    snapshot.covariance = PackedCovariance(size, std::vector<double>(read.values));
-  } else if (read.values.size() == n * n && (read.rows.empty() || read.rowsOf(n))) {
-    double asymmetry = 0.0;
-    snapshot.covariance = PackedCovariance(size, lowerOf(read.values, n, asymmetry));
-    snapshot.asymmetry = std::max(asymmetry, snapshot.asymmetry.value_or(0.0));
-  } else {
-    const std::string side = std::to_string(n);
-    fail("covariance",
-         side + "×" + side + " as rows or " + std::to_string(packed) + " numbers packed (" +
-             plural(snapshot.ids.size(), "feature") + ")",
-         read.describe());
-  }
 }
 
 std::chrono::nanoseconds seconds(Value& value) {
@@ -171,8 +75,8 @@ Truth truth(Value& value, Numbers& features) {
     if (key == "ids") result.ids = json::ids(field, "truth.ids");
     if (key == "features") json::numbers(field, "truth.features", features);
   });
-  result.features = points(features, result.ids.size(), "truth.features");
-  checkDistinct(result.ids, "truth.ids");
+  result.features = json::points(features, result.ids.size(), "truth.features");
+  json::checkDistinct(result.ids, "truth.ids");
   return result;
 }
 
@@ -313,9 +217,9 @@ Snapshot LineParser::record(std::string_view line, std::uint64_t default_sequenc
   checkEnd(document);
   if (!shapes.has_time) fail("time_s", "time_s or stamp_ns", "neither");
   if (!shapes.has_pose) fail("pose", "3 numbers", "nothing");
-  snapshot.features = points(shapes.features, snapshot.ids.size(), "features");
-  checkDistinct(snapshot.ids, "ids");
-  setCovariance(snapshot, shapes);
+  snapshot.features = json::points(shapes.features, snapshot.ids.size(), "features");
+  json::checkDistinct(snapshot.ids, "ids");
+  json::setCovariance(snapshot, shapes);
   return snapshot;
 }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <random>
 #include <string>
 
 #include "slam/jsonl.hpp"
+#include "slam/run_reader.hpp"
+#include "slam/run_writer.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -50,6 +54,31 @@ void writeJsonLine(benchmark::State& state) {
   countText(state, line.size());
 }
 BENCHMARK(writeJsonLine)->Arg(15)->Arg(100)->ArgName("features");
+
+/// A run of 2,000 records as a file: reading, unpacking, cutting lines, checking the order.
+void readRunFile(benchmark::State& state, const std::string& ending) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("slamscope_bench" + std::to_string(::getpid()) + ending);
+  std::size_t bytes = 0;
+  {
+    Snapshot snapshot = someSnapshot(15);
+    RunWriter writer(path, {});
+    for (int k = 0; k < 2000; ++k) {
+      snapshot.time += std::chrono::milliseconds(33);
+      bytes += formatRecord(snapshot).size() + 1;
+      writer.write(snapshot);
+    }
+    writer.finish();
+  }
+  for (auto _ : state) {
+    RunReader reader(path);
+    while (const auto snapshot = reader.next()) benchmark::DoNotOptimize(snapshot);
+  }
+  countText(state, bytes);
+  std::filesystem::remove(path);
+}
+BENCHMARK_CAPTURE(readRunFile, plain, ".jsonl")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(readRunFile, zst, ".jsonl.zst")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace slamscope::slam
