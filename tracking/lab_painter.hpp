@@ -72,8 +72,8 @@ class Painter {
   [[nodiscard]] Eigen::Array3f sampleRoom(int column, int row, const Room::Candidates& of) const;
   [[nodiscard]] Eigen::Array3f sampleRobot(int column, int row, const Exposure& exposure,
                                            const Eigen::Array3f& behind) const;
-  [[nodiscard]] Eigen::Array3f shaded(int column, int row, const Eigen::Array3f& colour,
-                                      const Blocker& blocker) const;
+  [[nodiscard]] Eigen::Array3f shade(int column, int row, const Blocker& blocker) const;
+  void paintShadow(Canvas& canvas, const Region& region, const Blocker& blocker) const;
   [[nodiscard]] int blurPixels(const Motion& motion) const;
 
   const Room& room_;
