@@ -133,7 +133,10 @@ struct Registration::Parts {
   /// Takes the frame's word on the map's place; true once that is known.
   bool learnMap(const CameraModel& camera, const RegistrationView& view, const TagPose& pose,
                 int frames) {
-    const auto fit = pose.ambiguous ? std::nullopt : fitMapInView(camera, setup, view, pose);
+    // What is biased in one frame is in all of them: see corner_bias_px.
+    RegistrationSetup one_of_many = setup;
+    one_of_many.corner_bias_px *= std::sqrt(frames);
+    const auto fit = pose.ambiguous ? std::nullopt : fitMapInView(camera, one_of_many, view, pose);
     if (fit && !map.add(fit->pose.T_world_map, fit->covariance.bottomRightCorner<3, 3>())) {
       // It sets off: the start lies in the frames before.
       map_known = map.frames() >= static_cast<int>(kLeastFrames);

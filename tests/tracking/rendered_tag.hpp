@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <random>
 #include <vector>
@@ -30,7 +31,8 @@ class PrintedTag {
     for (int y = 0; y < 10; ++y) {
       for (int x = 0; x < 10; ++x) cells_[y][x] = image->buf[y * image->stride + x] > 127;
     }
-    image_u8_destroy(image);
+    std::free(image->buf);  // image_u8_destroy lives in another library
+    std::free(image);
     tag36h11_destroy(family);
   }
 
