@@ -92,7 +92,7 @@ void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
       ->group(group);
   verb.add_option("--k", flags.k, "how many sigma")->check(CLI::PositiveNumber)->group(group);
   verb.add_option("--gain", flags.gain,
-                  "factor on the axes; default 1, for eigenvalue 60 (m per m^2)")
+                  "factor on the axes; default 1, for eigenvalue 25 (m per m^2)")
       ->check(CLI::PositiveNumber)
       ->group(group);
   verb.add_option("--cluster-cut", flags.cluster_cut,
@@ -114,8 +114,8 @@ void addOutputFlags(CLI::App& verb, MonitorFlags& flags) {
   MonitorOptions& rest = flags.rest;
   verb.add_option("--output", rest.output, "out.mp4 or out-%05d.png; without any output: a window")
       ->group(group);
-  verb.add_option("--picture", rest.picture, "one PNG: the last frame")->group(group);
-  verb.add_option("--compare", rest.compare, "one PNG: start and end of the run beside each other")
+  verb.add_option("--picture", rest.picture, "one PNG or JPEG: the last frame")->group(group);
+  verb.add_option("--compare", rest.compare, "one PNG or JPEG: start and end of the run beside each other")
       ->group(group);
   verb.add_option("--report", rest.report, "JSON: registration, errors and pixels of each frame")
       ->group(group);

@@ -364,10 +364,10 @@ void Monitor::State::finish() {
                              ")");
   }
   if (output) output->finish();
-  if (!options.picture.empty()) writePng(options.picture, pixels.front());
+  if (!options.picture.empty()) writePicture(options.picture, pixels.front());
   if (!options.compare.empty()) {
     if (!start_picture) throw std::runtime_error("--compare: no ellipsoid was ever drawn");
-    writePng(options.compare, sideBySide(*start_picture, pixels.front()));
+    writePicture(options.compare, sideBySide(*start_picture, pixels.front()));
   }
   if (!options.report.empty()) report.write(options.report);
 }

@@ -43,8 +43,8 @@ struct MonitorOptions {
   int width = 0, height = 0;      ///< of the drawn picture; 0: the camera's
   std::uint64_t frames = 0;       ///< to draw; 0: to the end
   std::filesystem::path output;   ///< NAME.mp4, NAME-%05d.png
-  std::filesystem::path picture;  ///< one PNG: the last frame
-  std::filesystem::path compare;  ///< one PNG: the run's start and end beside each other
+  std::filesystem::path picture;  ///< PNG or JPEG: the last frame
+  std::filesystem::path compare;  ///< PNG or JPEG: the run's start and end beside each other
   std::filesystem::path report;
   std::filesystem::path lab_truth;
   std::uint64_t lab_seed = 1;

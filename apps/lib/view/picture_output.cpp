@@ -40,7 +40,7 @@ class NumberedPngs : public PictureOutput {
     std::string number = std::to_string(next_++);
     const auto digits = static_cast<std::size_t>(digits_);
     if (number.size() < digits) number.insert(0, digits - number.size(), '0');
-    writePng(before_ + number + after_, picture);
+    writePicture(before_ + number + after_, picture);
   }
   void finish() override {}
 
@@ -115,14 +115,18 @@ std::unique_ptr<PictureOutput> openPictureOutput(const fs::path& target, double 
   throw std::runtime_error(name + ": an output is NAME.mp4 or NAME-%05d.png");
 }
 
-void writePng(const fs::path& file, const engine::Image& picture) {
+void writePicture(const fs::path& file, const engine::Image& picture) {
   requireFolder(file);
   fs::path partial = file;
-  partial.replace_filename("." + file.stem().string() + ".partial.png");
+  const std::string ending = file.extension().string();
+  if (ending != ".png" && ending != ".jpg") {
+    throw std::runtime_error(file.string() + ": a picture is NAME.png or NAME.jpg");
+  }
+  partial.replace_filename("." + file.stem().string() + ".partial" + ending);
   // The lowest compression: a frame's time matters more than a third of its bytes.
   bool written = false;
   try {
-    written = cv::imwrite(partial.string(), toBgr(picture), {cv::IMWRITE_PNG_COMPRESSION, 1});
+    written = cv::imwrite(partial.string(), toBgr(picture), {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, 88});
   } catch (const cv::Exception&) {
     written = false;
   }

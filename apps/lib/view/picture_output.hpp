@@ -25,8 +25,8 @@ class PictureOutput {
 [[nodiscard]] std::unique_ptr<PictureOutput> openPictureOutput(const std::filesystem::path& target,
                                                                double frames_per_second);
 
-/// One PNG. Throws std::runtime_error when it can't be written.
-void writePng(const std::filesystem::path& file, const engine::Image& picture);
+/// One picture, NAME.png or NAME.jpg. Throws std::runtime_error when it can't be written.
+void writePicture(const std::filesystem::path& file, const engine::Image& picture);
 
 /// Two pictures of one height side by side, with a gap of white columns.
 [[nodiscard]] engine::Image sideBySide(const engine::Image& left, const engine::Image& right,

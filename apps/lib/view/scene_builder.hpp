@@ -31,7 +31,7 @@ struct SceneStyle {
 
 /// What makes a glyph of a room-sized map visible: λ is in m², and 1 m a m² would be a speck.
 [[nodiscard]] constexpr double defaultGain(slam::Axis axis) {
-  return axis == slam::Axis::eigenvalue ? 60.0 : 1.0;
+  return axis == slam::Axis::eigenvalue ? 25.0 : 1.0;
 }
 
 /// The colours of the paper (section 3.2).

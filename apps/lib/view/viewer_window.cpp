@@ -78,7 +78,7 @@ void runInWindow(Monitor& monitor, const std::string& title) {
     window.show({&monitor.drawn(), 1});
     if (keys.takeScreenshot()) {
       const std::string name = screenshotName();
-      writePng(name, monitor.drawn());
+      writePicture(name, monitor.drawn());
       keys.say("wrote " + name);
     }
   }
