@@ -115,7 +115,8 @@ void addOutputFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--output", rest.output, "out.mp4 or out-%05d.png; without any output: a window")
       ->group(group);
   verb.add_option("--picture", rest.picture, "one PNG or JPEG: the last frame")->group(group);
-  verb.add_option("--compare", rest.compare, "one PNG or JPEG: start and end of the run beside each other")
+  verb.add_option("--compare", rest.compare,
+                  "one PNG or JPEG: start and end of the run beside each other")
       ->group(group);
   verb.add_option("--report", rest.report, "JSON: registration, errors and pixels of each frame")
       ->group(group);

@@ -12,11 +12,23 @@
 namespace slamscope::apps {
 namespace {
 
-constexpr double kTextPx = 14.0;
-constexpr double kMarginPx = 10.0;
-constexpr double kPaddingPx = 7.0;
-constexpr double kRowPx = 19.0;
-constexpr double kSwatchPx = 12.0;
+/// Sizes in px of a picture that is 720 px high; others scale, down to what can still be read.
+struct Layout {
+  double text = 14.0;
+  double margin = 10.0;
+  double padding = 7.0;
+  double row = 19.0;
+  double swatch = 12.0;
+  double bar = 12.0;
+
+  explicit Layout(const engine::Pinhole& camera) {
+    const double scale = std::clamp(camera.height / 720.0, 0.75, 3.0);
+    for (double* size : {&text, &margin, &padding, &row, &swatch, &bar}) {
+      *size = std::round(*size * scale);
+    }
+  }
+};
+
 constexpr engine::Rgba kPanel{0.04F, 0.05F, 0.07F, 0.66F};
 constexpr engine::Rgba kText{0.96F, 0.96F, 0.96F, 1.0F};
 
@@ -76,9 +88,9 @@ std::string barText(const Legend& legend, double length) {
   std::string text = lengthText(length);
   const double sigma = std::sqrt(eigenvalueOfLength(legend.axis, length));
   if (legend.axis.axis != slam::Axis::sigma || legend.axis.gain != 1.0) {
-    text += " of floor; as a semi-axis σ = " + lengthText(sigma);
+    text += " on the map; as a semi-axis σ = " + lengthText(sigma);
   } else {
-    text += format(" of floor = %gσ for σ = ", legend.axis.k) + lengthText(sigma);
+    text += format(" on the map = %gσ for σ = ", legend.axis.k) + lengthText(sigma);
   }
   if (legend.map_scale != 1.0) text += format("   (map drawn at 1:%.3g)", 1.0 / legend.map_scale);
   return text;
@@ -108,60 +120,63 @@ double eigenvalueOfLength(const slam::AxisScale& axis, double length) {
 }
 
 void addStatus(engine::Scene& scene, const std::vector<std::string>& lines,
-               engine::FontAtlas& fonts) {
+               const engine::Pinhole& camera, engine::FontAtlas& fonts) {
+  const Layout px(camera);
   double width = 0.0;
-  double y = kMarginPx + kPaddingPx;
+  double y = px.margin + px.padding;
   for (const std::string& line : lines) {
-    width = std::max(width, engine::measureText(fonts, line, kTextPx).width_px);
-    scene.texts.push_back({.position_px = {kMarginPx + kPaddingPx, y},
+    width = std::max(width, engine::measureText(fonts, line, px.text).width_px);
+    scene.texts.push_back({.position_px = {px.margin + px.padding, y},
                            .text = line,
-                           .height_px = kTextPx,
+                           .height_px = px.text,
                            .colour = kText});
-    y += kRowPx;
+    y += px.row;
   }
-  scene.rects.push_back({.min_px = {kMarginPx, kMarginPx},
-                         .max_px = {kMarginPx + width + 2.0 * kPaddingPx, y + kPaddingPx - 2.0},
+  scene.rects.push_back({.min_px = {px.margin, px.margin},
+                         .max_px = {px.margin + width + 2.0 * px.padding, y + px.padding - 2.0},
                          .colour = kPanel});
 }
 
 void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole& camera,
                engine::FontAtlas& fonts) {
+  const Layout px(camera);
   const std::vector<Row> rows = rowsOf(legend);
   const bool bar = legend.px_per_m > 0.0;
-  const double text_x = kMarginPx + kPaddingPx + kSwatchPx + 8.0;
+  const double left = px.margin + px.padding;
+  const double text_x = left + px.swatch + 8.0;
   const double height =
-      kRowPx * static_cast<double>(rows.size()) + (bar ? kRowPx + 12.0 : 0.0) + 2.0 * kPaddingPx;
-  const double top = camera.height - kMarginPx - height;
-  double y = top + kPaddingPx;
+      px.row * static_cast<double>(rows.size()) + 2.0 * px.padding + (bar ? px.row + px.bar : 0.0);
+  const double top = camera.height - px.margin - height;
+  double y = top + px.padding;
   double right = text_x;
   const auto addText = [&](const std::string& text, double x) {
     scene.texts.push_back(
-        {.position_px = {x, y}, .text = text, .height_px = kTextPx, .colour = kText});
-    right = std::max(right, x + engine::measureText(fonts, text, kTextPx).width_px);
+        {.position_px = {x, y}, .text = text, .height_px = px.text, .colour = kText});
+    right = std::max(right, x + engine::measureText(fonts, text, px.text).width_px);
   };
   const std::size_t panel = scene.rects.size();
   scene.rects.push_back({});
   for (const Row& row : rows) {
-    const Eigen::Vector2d corner(kMarginPx + kPaddingPx, y + 2.0);
+    const Eigen::Vector2d corner(left, y + 2.0);
     scene.rects.push_back({.min_px = corner,
-                           .max_px = corner + Eigen::Vector2d::Constant(kSwatchPx),
+                           .max_px = corner + Eigen::Vector2d::Constant(px.swatch),
                            .colour = row.swatch});
     addText(row.text, text_x);
-    y += kRowPx;
+    y += px.row;
   }
   if (bar) {
     const double map_metre_px = legend.px_per_m * legend.map_scale;
-    const double length = roundLength(220.0 / map_metre_px);
+    const double length = roundLength(15.0 * px.text / map_metre_px);
     const double bar_px = length * map_metre_px;
-    const Eigen::Vector2d from(kMarginPx + kPaddingPx, y + 5.0);
+    const Eigen::Vector2d from(left, y + 0.4 * px.bar);
     scene.rects.push_back(
-        {.min_px = from, .max_px = from + Eigen::Vector2d(bar_px, 4.0), .colour = kText});
+        {.min_px = from, .max_px = from + Eigen::Vector2d(bar_px, 0.3 * px.bar), .colour = kText});
     right = std::max(right, from.x() + bar_px);
-    y += 12.0;
-    addText(barText(legend, length), kMarginPx + kPaddingPx);
+    y += px.bar;
+    addText(barText(legend, length), left);
   }
   scene.rects[panel] = {
-      .min_px = {kMarginPx, top}, .max_px = {right + kPaddingPx, top + height}, .colour = kPanel};
+      .min_px = {px.margin, top}, .max_px = {right + px.padding, top + height}, .colour = kPanel};
 }
 
 void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAtlas& fonts) {
@@ -185,7 +200,9 @@ void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAt
 
   std::vector<engine::LabelRequest> requests;
   std::vector<engine::Label> in_view;
+  const double text_px = Layout(view.camera).text;
   for (engine::Label& label : scene.labels) {
+    label.height_px = text_px;
     const auto anchor = pixel(label.anchor);
     if (!anchor) continue;
     const engine::TextExtent extent = engine::measureText(fonts, label.text, label.height_px);

@@ -25,7 +25,7 @@ struct Legend {
 
 /// Puts lines of text on a dark panel in the picture's upper left corner.
 void addStatus(engine::Scene& scene, const std::vector<std::string>& lines,
-               engine::FontAtlas& fonts);
+               const engine::Pinhole& camera, engine::FontAtlas& fonts);
 
 /// Puts the legend into the picture's lower left corner: what each glyph is, how long its axes are,
 /// and a bar of a round length with what it stands for.

@@ -76,6 +76,10 @@ struct Monitor::State {
   [[nodiscard]] std::vector<std::string> statusLines() const;
   [[nodiscard]] std::string runLine() const;
   [[nodiscard]] Legend legend() const;
+  [[nodiscard]] bool clustered() const {
+    return choices.mode == slam::PairMode::between_clusters ||
+           choices.mode == slam::PairMode::min_mean_max;
+  }
 
   void draw();
   void hand();
@@ -206,8 +210,8 @@ void Monitor::State::detect(const tracking::Frame& frame) {
 
 SceneStyle Monitor::State::style() const {
   // Cones and arrow have one size on the floor, so chosen that they suit the picture.
-  constexpr double kConePx = 64.0;
-  const double cone = kConePx * metres_per_px;
+  constexpr double kConeShare = 0.09;  // of the picture's height, seen from the side
+  const double cone = kConeShare * camera.pinhole.height * metres_per_px;
   return {.mode = choices.mode,
           .axis = choices.axis,
           .selected = options.selected,
@@ -246,21 +250,20 @@ std::vector<std::string> Monitor::State::statusLines() const {
   lines.push_back((setup.calibrated ? "" : "uncalibrated · ") + registration.status());
   for (const std::string& problem : registration.problems()) lines.push_back(problem);
   if (const std::string link = feed->status(); !link.empty()) lines.push_back(link);
-  if (slam.framesSinceRepartition() < 45) lines.emplace_back("the clusters have changed");
+  if (clustered() && slam.framesSinceRepartition() < 45)
+    lines.emplace_back("the clusters have changed");
   if (slam.stopped()) lines.push_back("the picture stops at " + *slam.stopped());
   if (!choices.message.empty()) lines.push_back(choices.message);
   return lines;
 }
 
 Legend Monitor::State::legend() const {
-  const bool clustered = choices.mode == slam::PairMode::between_clusters ||
-                         choices.mode == slam::PairMode::min_mean_max;
   const slam::Clustering& clusters = slam.clusters();
   return {.mode = choices.mode,
           .axis = choices.axis,
           .map_scale = setup.map_scale,
           .covariance_rings = choices.covariance_rings,
-          .clusters = clustered ? clusters.count() : 0,
+          .clusters = clustered() ? clusters.count() : 0,
           .cluster_cut = clusters.cut,
           .automatic_cut = clusters.automatic,
           .px_per_m = 1.0 / metres_per_px};
@@ -273,7 +276,7 @@ void Monitor::State::compose() {
     picture.view.T_eye_scene = registered()->T_camera_map;
     picture.scene = buildScene(*slam.newest(), slam.path(), slam.clusters(), style());
   }
-  addStatus(picture.scene, statusLines(), fonts);
+  addStatus(picture.scene, statusLines(), camera.pinhole, fonts);
   if (!shown()) return;
   if (choices.legend) addLegend(picture.scene, legend(), camera.pinhole, fonts);
   spreadLabels(picture.scene, picture.view, fonts);

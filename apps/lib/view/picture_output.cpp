@@ -126,7 +126,8 @@ void writePicture(const fs::path& file, const engine::Image& picture) {
   // The lowest compression: a frame's time matters more than a third of its bytes.
   bool written = false;
   try {
-    written = cv::imwrite(partial.string(), toBgr(picture), {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, 88});
+    written = cv::imwrite(partial.string(), toBgr(picture),
+                          {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, 88});
   } catch (const cv::Exception&) {
     written = false;
   }
