@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <deque>
+#include <stdexcept>
 #include <utility>
 
 #include "engine/gpu/core.hpp"
+#include "engine/render/frame.hpp"
 #include "engine/window/glfw_window.hpp"
 #include "engine/window/picture_upload.hpp"
 #include "engine/window/presenter.hpp"
@@ -14,8 +16,8 @@ namespace slamscope::engine {
 
 using Clock = std::chrono::steady_clock;
 
-// Destroyed from the last to the first: what is on the device before the window, the window before
-// the device.
+// Destroyed from the last to the first: the presenter, which waits until the device has read the last
+// picture, then the pictures, the window, the device.
 struct Window::Parts {
   Parts(std::shared_ptr<Gpu> the_gpu, const WindowOptions& options)
       : gpu(std::move(the_gpu)),
@@ -26,11 +28,30 @@ struct Window::Parts {
   std::shared_ptr<Gpu> gpu;
   GlfwWindow window;
   PictureUpload upload;
+  std::unique_ptr<Frame> frame;
   Presenter presenter;
   Eigen::Vector2i picture_px = Eigen::Vector2i::Zero();
   int views = 0;
   std::deque<Clock::time_point> shown;
   FrameStats stats;
+
+  /// The frame of the views' size and number.
+  Frame& frameFor(std::span<const View> views_now) {
+    if (views_now.empty()) throw std::invalid_argument("there is no view to show");
+    const Pinhole& camera = views_now.front().camera;
+    if (frame) {
+      const gpu::DeviceImage& colour = frame->colour();
+      if (colour.extent() == vk::Extent2D{static_cast<std::uint32_t>(camera.width),
+                                          static_cast<std::uint32_t>(camera.height)} &&
+          colour.layers() == views_now.size()) {
+        return *frame;
+      }
+    }
+    frame.reset();
+    frame = std::make_unique<Frame>(gpu->core(), camera.width, camera.height,
+                                    static_cast<int>(views_now.size()));
+    return *frame;
+  }
 
   void present(const gpu::DeviceImage& picture) {
     picture_px = {static_cast<int>(picture.extent().width),
@@ -69,7 +90,19 @@ Input Window::poll() {
   return input;
 }
 
+void Window::show(std::span<const View> views, const Scene& scene, const RenderOptions& options) {
+  if (parts_->window.minimised()) return;
+  parts_->presenter.wait();
+  Frame& frame = parts_->frameFor(views);
+  (void)frame.record(views, scene, options);
+  frame.submit();
+  parts_->present(frame.colour());
+  frame.wait();
+  parts_->stats = frame.stats();
+}
+
 void Window::show(std::span<const Image> pictures) {
+  if (parts_->window.minimised()) return;
   parts_->presenter.wait();
   parts_->present(parts_->upload.upload(pictures));
 }

@@ -100,9 +100,9 @@ TEST(EllipsoidOutline, TouchesTheProjectedSurfaceInEveryDirection) {
     for (const Ellipsoid& e : someEllipsoids()) {
       const auto outline = ellipsoidOutline(e, view);
       ASSERT_TRUE(outline);
-      const auto surface = projectedSurface(e, view, 400);
+      const auto surface = projectedSurface(e, view, 160);
       const auto found = supports(outline->centre_px, outline->shape_px2, surface);
-      const double grid_px = 1e-4 * outline->semi_major_px;  // the grid misses the very extreme
+      const double grid_px = 4e-4 * outline->semi_major_px;  // the grid misses the very extreme
       EXPECT_LT(worstError(found), grid_px + 1e-6);
       for (const Support& s : found) EXPECT_LE(s.surface_px, s.outline_px + 1e-8);  // all inside
     }

@@ -50,12 +50,12 @@ inline std::optional<std::pair<double, double>> roots(double a, double b, double
   return std::pair{std::min(first, second), std::max(first, second)};
 }
 
-/// Depth of the first point of the ellipsoid in front of the eye.
-inline std::optional<double> hitDepth(const Ellipsoid& ellipsoid, const Ray& ray) {
+/// Depth of the first point of the ellipsoid in front of the eye; `inverse` is that of its axes.
+inline std::optional<double> hitDepth(const Eigen::Vector3d& centre, const Eigen::Matrix3d& inverse,
+                                      const Ray& ray) {
   // In coordinates in which the ellipsoid is the unit ball.
-  const auto lu = ellipsoid.axes.fullPivLu();
-  const Eigen::Vector3d o = lu.solve(ray.origin - ellipsoid.centre);
-  const Eigen::Vector3d d = lu.solve(ray.direction);
+  const Eigen::Vector3d o = inverse * (ray.origin - centre);
+  const Eigen::Vector3d d = inverse * ray.direction;
   const auto z = roots(d.squaredNorm(), o.dot(d), o.squaredNorm() - 1.0);
   if (!z || z->second <= 0.0) return std::nullopt;
   return z->first > 0.0 ? z->first : z->second;
@@ -94,26 +94,62 @@ inline Picture raycast(const Scene& scene, const View& view) {
   const auto offer = [](Hit& hit, int id, std::optional<double> depth) {
     if (depth && *depth < hit.depth) hit = {id, *depth};
   };
+  std::vector<Eigen::Matrix3d> inverses;
+  for (const Ellipsoid& e : scene.ellipsoids) inverses.push_back(e.axes.inverse());
   for (int v = 0; v < picture.height; ++v) {
     for (int u = 0; u < picture.width; ++u) {
       const Ray ray = rayThrough(view, u, v);
       Hit& hit = picture.hits[v * picture.width + u];
       int id = 0;
-      for (const Ellipsoid& e : scene.ellipsoids) offer(hit, id++, hitDepth(e, ray));
+      for (std::size_t i = 0; i < inverses.size(); ++i) {
+        offer(hit, id++, hitDepth(scene.ellipsoids[i].centre, inverses[i], ray));
+      }
       for (const Cone& c : scene.cones) offer(hit, id++, hitDepth(c, ray));
     }
   }
   return picture;
 }
 
-/// True within `reach` pixels of a border between two ids: there anti-aliasing may mix.
-inline bool nearEdge(const Picture& picture, int u, int v, int reach = 1) {
-  for (int y = std::max(0, v - reach); y <= std::min(picture.height - 1, v + reach); ++y) {
-    for (int x = std::max(0, u - reach); x <= std::min(picture.width - 1, u + reach); ++x) {
-      if (picture.at(x, y).id != picture.at(u, v).id) return true;
+/// The hits of a picture, and what lies between its pixel centres: kFine rays a pixel each way (the
+/// middle one through the centre), and kMargin pixels past its edges. So borders are known that no
+/// pixel centre sees.
+class FinePicture {
+ public:
+  static constexpr int kFine = 3;
+  static constexpr int kMargin = 2;
+
+  FinePicture(const Scene& scene, const View& view) : picture_(raycast(scene, finer(view))) {}
+
+  [[nodiscard]] const Hit& at(int u, int v) const { return picture_.at(middle(u), middle(v)); }
+
+  /// True where a border between two ids is within 1 pixel of the pixel's centre (a little more):
+  /// there anti-aliasing may mix.
+  [[nodiscard]] bool nearEdge(int u, int v) const {
+    constexpr int kReach = kFine + 1;
+    for (int y = middle(v) - kReach; y <= middle(v) + kReach; ++y) {
+      for (int x = middle(u) - kReach; x <= middle(u) + kReach; ++x) {
+        if (picture_.at(x, y).id != at(u, v).id) return true;
+      }
     }
+    return false;
   }
-  return false;
-}
+
+ private:
+  static int middle(int pixel) { return kFine * (pixel + kMargin) + kFine / 2; }
+
+  static View finer(View view) {
+    Pinhole& camera = view.camera;
+    camera.width = kFine * (camera.width + 2 * kMargin);
+    camera.height = kFine * (camera.height + 2 * kMargin);
+    camera.fx *= kFine;
+    camera.fy *= kFine;
+    camera.skew *= kFine;
+    camera.cx = kFine * (camera.cx + kMargin) + kFine / 2;
+    camera.cy = kFine * (camera.cy + kMargin) + kFine / 2;
+    return view;
+  }
+
+  Picture picture_;
+};
 
 }  // namespace slamscope::engine::reference

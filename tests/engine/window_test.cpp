@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <random>
 #include <thread>
 
+#include "engine/render/offscreen.hpp"
 #include "tests/engine/virtual_display.hpp"
 
 #include <X11/keysym.h>
@@ -79,23 +81,29 @@ class WindowTest : public testing::Test {
     for (const std::string& message : gpu_->validationMessages()) ADD_FAILURE() << message;
   }
 
+  static auto equals(const Image& picture) {
+    return [&picture](const Image& seen) {
+      return seen.width == picture.width && seen.rgba == picture.rgba;
+    };
+  }
+
   // Presenting is asynchronous: shows until the screen has it (true), or for 10 s in vain (false).
-  bool becomes(Window& window, std::span<const Image> pictures, const auto& as_wanted) {
+  bool becomes(const auto& show, Window& window, const auto& as_wanted) {
     for (int i = 0; i < 200; ++i) {
       (void)window.poll();
-      window.show(pictures);
+      show();
       const auto seen = display_.screenshot(kTitle);
       if (seen && as_wanted(*seen)) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     return false;
   }
-  bool becomes(Window& window, const Image& picture) {
-    return becomes(window, {&picture, 1}, [&picture](const Image& seen) {
-      return seen.width == picture.width && seen.rgba == picture.rgba;
-    });
+  bool becomes(Window& window, std::span<const Image> pictures, const auto& as_wanted) {
+    return becomes([&] { window.show(pictures); }, window, as_wanted);
   }
-
+  bool becomes(Window& window, const Image& picture) {
+    return becomes(window, {&picture, 1}, equals(picture));
+  }
   // Events take their way through the server: polls until there are `count` (or 10 s are over).
   static Input pollFor(Window& window, std::size_t count) {
     Input input;
@@ -144,6 +152,56 @@ TEST_F(WindowTest, TwoPicturesStandSideBySideAndAreScaledToFit) {
            bytesAt(seen, 160, 0) == Rgba{0, 200, 30, 0} &&
            bytesAt(seen, 319, 119) == Rgba{0, 200, 30, 0};
   }));
+}
+
+Scene someScene() {
+  Scene scene;
+  Ellipsoid ellipsoid;
+  ellipsoid.centre = {0.0, 0.0, 2.0};
+  ellipsoid.axes *= 0.4;
+  ellipsoid.colour = {0.9F, 0.1F, 0.1F, 0.7F};
+  scene.ellipsoids = {ellipsoid};
+  scene.texts = {{.position_px = {10, 10}, .text = "mode all · σ", .height_px = 14, .colour = {}}};
+  return scene;
+}
+
+View someView(int width, int height, double shift) {
+  View view;
+  view.camera = {.width = width,
+                 .height = height,
+                 .fx = 300,
+                 .fy = 300,
+                 .cx = width / 2.0,
+                 .cy = height / 2.0};
+  view.T_eye_scene.translation().x() = shift;
+  return view;
+}
+
+TEST_F(WindowTest, ShowsASceneByteForByteAsTheFileHasIt) {
+  Window window(gpu_, {.title = kTitle, .width = 640, .height = 240});
+  const std::array<View, 2> views = {someView(320, 240, 0.0), someView(320, 240, -0.1)};
+  const auto files = Offscreen(gpu_, 320, 240, 2).draw(views, someScene());
+  Image expected{640, 240, {}};
+  for (int row = 0; row < 240; ++row) {
+    for (const Image& file : files) {
+      const auto begin = file.rgba.begin() + row * 320 * 4;
+      expected.rgba.insert(expected.rgba.end(), begin, begin + 320 * 4);
+    }
+  }
+  EXPECT_NE(files[0].rgba, files[1].rgba);
+  EXPECT_TRUE(becomes([&] { window.show(views, someScene()); }, window, equals(expected)));
+  EXPECT_EQ(window.lastStats().draws("ellipsoids"), 1);
+
+  // One view again, in the same window: now in its middle.
+  EXPECT_TRUE(becomes(
+      [&] {
+        window.show({&views[0], 1}, someScene());
+      },
+      window,
+      [&](const Image& seen) {
+        return seen.width == 640 && bytesAt(seen, 160, 0) == bytesAt(files[0], 0, 0) &&
+               bytesAt(seen, 320, 120) == bytesAt(files[0], 160, 120);
+      }));
 }
 
 TEST_F(WindowTest, FollowsResizingSilently) {
