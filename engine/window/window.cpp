@@ -16,8 +16,8 @@ namespace slamscope::engine {
 
 using Clock = std::chrono::steady_clock;
 
-// Destroyed from the last to the first: the presenter, which waits until the device has read the last
-// picture, then the pictures, the window, the device.
+// Destroyed from the last to the first: the presenter, which waits until the device has read the
+// last picture, then the pictures, the window, the device.
 struct Window::Parts {
   Parts(std::shared_ptr<Gpu> the_gpu, const WindowOptions& options)
       : gpu(std::move(the_gpu)),
