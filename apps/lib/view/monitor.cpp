@@ -12,6 +12,7 @@
 #include "apps/lib/view/legend.hpp"
 #include "apps/lib/view/monitor_report.hpp"
 #include "apps/lib/view/output_camera.hpp"
+#include "apps/lib/view/overlay.hpp"
 #include "apps/lib/view/picture_output.hpp"
 #include "apps/lib/view/run_clock.hpp"
 #include "apps/lib/view/slam_view.hpp"
@@ -325,38 +326,14 @@ FrameReport Monitor::State::frameReport() const {
   frame.ellipsoids = picture.scene.ellipsoids.size();
   frame.features = snapshot.ids.size();
 
-  std::optional<Eigen::Isometry3d> true_T_camera_map;
-  if (setup.lab) true_T_camera_map = setup.lab->T_world_camera.inverse() * setup.lab->T_world_map;
-  const engine::Pinhole& pinhole = camera.pinhole;
-  double squares = 0.0;
-  int known = 0;
-  for (std::size_t k = 0; k < snapshot.ids.size(); ++k) {
-    const Eigen::Vector2d& feature = snapshot.features[k];
-    const Eigen::Vector3d p_scene(setup.map_scale * feature.x(), setup.map_scale * feature.y(),
-                                  0.0);
-    const Eigen::Vector3d p_eye = picture.view.T_eye_scene * p_scene;
-    if (p_eye.z() <= 0.0) continue;
-    const Eigen::Vector2d px = engine::project(pinhole, p_eye);
-    const bool inside = px.x() >= 0.0 && px.y() >= 0.0 && px.x() <= pinhole.width - 1.0 &&
-                        px.y() <= pinhole.height - 1.0;
-    if (!inside) continue;
-    frame.tips.push_back({snapshot.ids[k], px});
-    if (true_T_camera_map) {
-      frame.overlay_errors_px.push_back(
-          (px - engine::project(pinhole, *true_T_camera_map * p_scene)).norm());
-    }
+  Overlay overlay{.camera = camera.pinhole,
+                  .T_camera_map = picture.view.T_eye_scene,
+                  .true_T_camera_map = {},
+                  .map_scale = setup.map_scale};
+  if (setup.lab) {
+    overlay.true_T_camera_map = setup.lab->T_world_camera.inverse() * setup.lab->T_world_map;
   }
-  if (snapshot.truth) {
-    const slam::Truth& world = *snapshot.truth;
-    for (std::size_t k = 0; k < world.ids.size(); ++k) {
-      const auto index = snapshot.indexOf(world.ids[k]);
-      if (!index) continue;
-      squares +=
-          (snapshot.features[static_cast<std::size_t>(*index)] - world.features[k]).squaredNorm();
-      ++known;
-    }
-  }
-  if (known > 0) frame.slam_error_m = std::sqrt(squares / known);
+  measureOverlay(overlay, snapshot, frame);
   return frame;
 }
 
