@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "slam/audit/innovation_estimate.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace slamscope::slam {
+namespace {
+
+/// D⁺ over the eigenvectors whose eigenvalues stand out of the noise.
+struct PseudoInverse {
+  Eigen::MatrixXd half;  ///< columns q_i / √λ_i
+  double least = 0.0;    ///< least eigenvalue kept
+};
+
+PseudoInverse pseudoInverse(const Eigen::MatrixXd& D, double noise, double mean_noise) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(D);
+  const Eigen::VectorXd& values = eigen.eigenvalues();
+  const double size = std::sqrt(static_cast<double>(D.rows()));
+  const double floor = std::max(
+      {100.0 * noise * size, 1e-9 * values.cwiseAbs().maxCoeff(), 100.0 * mean_noise * mean_noise});
+  PseudoInverse inverse;
+  Eigen::Index first = 0;
+  while (first < values.size() && !(values[first] > floor)) ++first;
+  const Eigen::Index count = values.size() - first;
+  inverse.half = eigen.eigenvectors().rightCols(count) *
+                 values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+  if (count > 0) inverse.least = values[first];
+  return inverse;
+}
+
+Eigen::VectorXd pick(const Eigen::VectorXd& v, const std::vector<int>& states) {
+  Eigen::VectorXd picked(static_cast<Eigen::Index>(states.size()));
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    picked[static_cast<Eigen::Index>(k)] = v[states[k]];
+  }
+  return picked;
+}
+
+double scaledMeanNoise(const Transition& t) {
+  return 2.0 * t.mean_noise * t.scale.maxCoeff();
+}
+
+/// B_i P⁻ B_iᵀ from U_i = P⁻ B_iᵀ.
+Eigen::Matrix2d projected(const Transition& t, const Eigen::MatrixXd& U, Eigen::Index column,
+                          int feature, const Eigen::Vector2d& delta) {
+  const auto row = [&](int state) {
+    return Eigen::RowVector2d(U.block<1, 2>(state, column) * t.sigma[state]);
+  };
+  const int l = Snapshot::row(feature);
+  Eigen::Matrix2d result;
+  result.row(0) = row(l) - row(0) + delta.y() * row(2);
+  result.row(1) = row(l + 1) - row(1) - delta.x() * row(2);
+  return result;
+}
+
+}  // namespace
+
+InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& anatomy) {
+  InnovationEstimate estimate;
+  if (anatomy.observed.empty()) return estimate;
+  std::vector<int> blocks{-1};
+  for (const int i : anatomy.observed) {
+    const bool bad =
+        std::find(anatomy.outside.begin(), anatomy.outside.end(), i) != anatomy.outside.end();
+    if (!bad) blocks.push_back(i);
+  }
+  const bool robot_bad =
+      std::find(anatomy.outside.begin(), anatomy.outside.end(), -1) != anatomy.outside.end();
+  if (robot_bad) blocks.erase(blocks.begin());
+  const std::vector<int> states = statesOf(blocks);
+  if (states.empty()) return estimate;
+  const PseudoInverse inverse = pseudoInverse(t.scaledBlock(states), t.noise, scaledMeanNoise(t));
+  const Eigen::VectorXd dx = pick(t.scale.cwiseProduct(t.meanChange()), states);
+  const Eigen::VectorXd w = inverse.half.transpose() * dx;
+  const auto lawful = 2 * static_cast<Eigen::Index>(anatomy.observed.size());
+  estimate.dof = static_cast<int>(w.size());
+  estimate.nis = w.squaredNorm();
+  if (estimate.dof != lawful || !anatomy.outside.empty() || anatomy.basis.W.cols() != lawful) {
+    return estimate;
+  }
+  Eigen::MatrixXd U(static_cast<Eigen::Index>(states.size()), lawful);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    U.row(static_cast<Eigen::Index>(k)) = anatomy.basis.W.row(states[k]);
+  }
+  const Eigen::MatrixXd V = inverse.half.transpose() * U;
+  const Eigen::VectorXd innovation = V.transpose() * w;
+  const Eigen::MatrixXd S = V.transpose() * V;
+  for (std::size_t k = 0; k < anatomy.observed.size(); ++k) {
+    const auto column = 2 * static_cast<Eigen::Index>(k);
+    FeatureInnovation one;
+    one.id = t.id(anatomy.observed[k]);
+    const Eigen::Matrix2d S_i = S.block<2, 2>(column, column);
+    const Eigen::Vector2d nu = innovation.segment<2>(column);
+    one.nis = nu.dot(S_i.ldlt().solve(nu));
+    one.dof = 2;
+    one.R_map = S_i - projected(t, anatomy.basis.W, column, anatomy.observed[k], anatomy.deltas[k]);
+    one.R_error = (1e-7 + 50.0 * t.noise / inverse.least) * S_i.trace() /
+                  std::max(std::abs(one.R_map.trace()), 1e-300);
+    estimate.features.push_back(one);
+  }
+  return estimate;
+}
+
+InnovationEstimate estimateStepInnovation(const Transition& t) {
+  InnovationEstimate estimate;
+  std::vector<int> features = t.observed;
+  if (!t.observed_given) {
+    std::vector<std::pair<double, int>> corrected;
+    for (int i = 0; i < t.shared; ++i) {
+      const int r = Snapshot::row(i);
+      corrected.emplace_back(-(t.change(r, r) + t.change(r + 1, r + 1)), i);
+    }
+    const auto count = std::min<std::ptrdiff_t>(8, static_cast<std::ptrdiff_t>(corrected.size()));
+    std::partial_sort(corrected.begin(), corrected.begin() + count, corrected.end());
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+      features.push_back(corrected[static_cast<std::size_t>(k)].second);
+    }
+    std::sort(features.begin(), features.end());
+  }
+  if (features.empty()) return estimate;
+  const Eigen::VectorXd dx = t.scale.cwiseProduct(t.meanChange());
+  const double mean_noise = scaledMeanNoise(t);
+  const std::vector<int> states = statesOf(features);
+  const PseudoInverse all = pseudoInverse(t.scaledBlock(states), t.noise, mean_noise);
+  estimate.dof = static_cast<int>(all.half.cols());
+  estimate.nis = (all.half.transpose() * pick(dx, states)).squaredNorm();
+  for (const int i : features) {
+    const std::vector<int> own = statesOf({i});
+    const PseudoInverse inverse = pseudoInverse(t.scaledBlock(own), t.noise, mean_noise);
+    FeatureInnovation one;
+    one.id = t.id(i);
+    one.dof = static_cast<int>(inverse.half.cols());
+    one.nis = (inverse.half.transpose() * pick(dx, own)).squaredNorm();
+    estimate.features.push_back(one);
+  }
+  return estimate;
+}
+
+}  // namespace slamscope::slam

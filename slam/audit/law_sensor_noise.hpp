@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "slam/audit/innovation_estimate.hpp"
+#include "slam/audit/law_support.hpp"
+#include "slam/audit/outcome.hpp"
+#include "slam/audit/transition.hpp"
+
+namespace slamscope::slam {
+
+/// sensor-noise: R̂ recovered from D (innovation_estimate.hpp) equals the declared R. Needs the
+/// sensor and R. Residual: largest difference, entries scaled by √diag R. Tolerance 1e-4 + what
+/// noise may cause; 0.2 where the filter is linearised nearly, not quite, as an EKF. Patterns: σ
+/// given for σ², degrees² for radians², one factor on all of R, half of it (counted twice).
+[[nodiscard]] Outcome checkSensorNoise(const Transition& transition, const UpdateAnatomy& anatomy,
+                                       const InnovationEstimate& estimate, Sensor sensor,
+                                       const Eigen::Matrix2d& R);
+
+}  // namespace slamscope::slam

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "slam/audit/span_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace slamscope::slam {
+namespace {
+
+constexpr double kSafety = 8.0;       ///< over the error expected from independent roundings
+constexpr double kArithmetic = 1e-6;  ///< of D itself: what other forms of the update may lose
+
+struct Factorised {
+  Eigen::MatrixXd Q;         ///< orthonormal, the resolved directions of the basis
+  Eigen::MatrixXd R;         ///< chosen columns of unit length = Q R
+  Eigen::VectorXd noise;     ///< of the chosen columns
+  bool all_resolved = true;  ///< no direction drowns in the noise
+};
+
+Factorised factorise(const SpanBasis& basis, const std::vector<int>& without) {
+  Factorised f;
+  Eigen::MatrixXd W = basis.W;
+  Eigen::VectorXd noise = basis.noise;
+  for (const int state : without) {
+    if (state >= basis.begin) W.row(state - basis.begin).setZero();
+  }
+  for (Eigen::Index c = 0; c < W.cols(); ++c) {
+    const double length = W.col(c).norm();
+    if (!(length > 0.0)) continue;
+    W.col(c) /= length;
+    noise[c] /= length;
+  }
+  f.Q.resize(W.rows(), 0);
+  if (W.cols() == 0) return f;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(W);
+  const double drowned =
+      std::max(1e-13, 10.0 * noise.maxCoeff() * std::sqrt(static_cast<double>(W.rows())));
+  Eigen::Index rank = 0;
+  const Eigen::Index most = std::min(W.rows(), W.cols());
+  while (rank < most && std::abs(qr.matrixR()(rank, rank)) > drowned) ++rank;
+  f.all_resolved = rank == W.cols();
+  f.Q = qr.householderQ() * Eigen::MatrixXd::Identity(W.rows(), rank);
+  f.R = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
+  f.noise.resize(rank);
+  for (Eigen::Index c = 0; c < rank; ++c) {
+    f.noise[c] = noise[qr.colsPermutation().indices()[c]];
+  }
+  return f;
+}
+
+/// Y without the rows and columns of D at `without`.
+Eigen::MatrixXd restricted(const Transition& t, const ProbedChange& change,
+                           const std::vector<int>& without) {
+  Eigen::MatrixXd Y = change.Y;
+  for (const int state : without) {
+    if (state < change.begin) continue;
+    for (Eigen::Index row = 0; row < Y.rows(); ++row) {
+      Y.row(row) -= t.change(change.begin + static_cast<int>(row), state) *
+                    change.Omega.row(state - change.begin);
+    }
+  }
+  for (const int state : without) {
+    if (state >= change.begin) Y.row(state - change.begin).setZero();
+  }
+  return Y;
+}
+
+/// Squared residual that goes away when the rows of a block are taken out of the least squares:
+/// rᵀ (I − Q_b Q_bᵀ)⁻¹ r, leverage included.
+double relief(const Eigen::MatrixXd& Q, const Eigen::MatrixXd& outside, int row, int rows) {
+  const auto Q_b = Q.middleRows(row, rows);
+  const Eigen::MatrixXd r = outside.middleRows(row, rows);
+  Eigen::MatrixXd G = Eigen::MatrixXd::Identity(rows, rows) - Q_b * Q_b.transpose();
+  G.diagonal().array() += 1e-12;
+  return (r.transpose() * G.ldlt().solve(r)).trace();
+}
+
+}  // namespace
+
+SpanBasis observationBasis(const Transition& t, const std::vector<int>& features,
+                           const std::vector<Eigen::Vector2d>& deltas) {
+  SpanBasis basis;
+  basis.W.resize(t.size(), 2 * static_cast<Eigen::Index>(features.size()));
+  basis.noise.resize(basis.W.cols());
+  const Eigen::VectorXd x = t.scaledColumn(0);
+  const Eigen::VectorXd y = t.scaledColumn(1);
+  const Eigen::VectorXd theta = t.scaledColumn(2);
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    const int row = Snapshot::row(features[k]);
+    const auto col = 2 * static_cast<Eigen::Index>(k);
+    const Eigen::Vector2d& delta = deltas[k];
+    basis.W.col(col) = t.scaledColumn(row) - x + delta.y() * theta;
+    basis.W.col(col + 1) = t.scaledColumn(row + 1) - y - delta.x() * theta;
+    for (int axis = 0; axis < 2; ++axis) {
+      basis.noise[col + axis] =
+          t.noise * (t.sigma[row + axis] + t.sigma[axis] + t.sigma[2] * delta.norm()) +
+          2.0 * t.mean_noise * t.sigma[2];
+    }
+  }
+  return basis;
+}
+
+SpanBasis looseBasis(const Transition& t, const std::vector<int>& features, int begin) {
+  SpanBasis basis;
+  basis.begin = begin;
+  const int rows = t.size() - begin;
+  basis.W.resize(rows, 2 * static_cast<Eigen::Index>(features.size()) + 1);
+  basis.noise.resize(basis.W.cols());
+  const Eigen::VectorXd x = t.scaledColumn(0).tail(rows);
+  const Eigen::VectorXd y = t.scaledColumn(1).tail(rows);
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    const int row = Snapshot::row(features[k]);
+    const auto col = 2 * static_cast<Eigen::Index>(k);
+    basis.W.col(col) = t.scaledColumn(row).tail(rows) - x;
+    basis.W.col(col + 1) = t.scaledColumn(row + 1).tail(rows) - y;
+    for (int axis = 0; axis < 2; ++axis) {
+      basis.noise[col + axis] = t.noise * (t.sigma[row + axis] + t.sigma[axis]);
+    }
+  }
+  basis.W.rightCols<1>() = t.scaledColumn(2).tail(rows);
+  basis.noise[basis.W.cols() - 1] = t.noise * t.sigma[2];
+  return basis;
+}
+
+std::vector<Eigen::Vector2d> lawfulDeltas(const Snapshot& snapshot,
+                                          const std::vector<int>& features) {
+  std::vector<Eigen::Vector2d> deltas;
+  deltas.reserve(features.size());
+  for (const int i : features) {
+    deltas.emplace_back(snapshot.features[static_cast<std::size_t>(i)] - snapshot.pose.head<2>());
+  }
+  return deltas;
+}
+
+ProbedChange probeChange(const Transition& t, int begin, int count) {
+  ProbedChange change;
+  change.begin = begin;
+  change.Omega = probes(t.size() - begin, count, t.after->sequence);
+  change.Y = changeTimes(t, begin, change.Omega);
+  return change;
+}
+
+SpanFit fitSpan(const Transition& t, const ProbedChange& change, const SpanBasis& basis,
+                const std::vector<int>& without) {
+  SpanFit fit;
+  const Factorised f = factorise(basis, without);
+  const Eigen::MatrixXd Y = without.empty() ? change.Y : restricted(t, change, without);
+  Eigen::MatrixXd weight = f.Q.transpose() * Y;
+  fit.outside = Y - f.Q * weight;
+  // How much the error of each basis vector matters: its weight in Y.
+  f.R.triangularView<Eigen::Upper>().solveInPlace(weight);
+  const double rounding = t.noise * std::sqrt(static_cast<double>(Y.rows()));
+  double worst = 0.0;
+  double largest = 0.0;
+  fit.checkable = true;
+  fit.whole = true;
+  for (Eigen::Index k = 0; k < Y.cols(); ++k) {
+    double error = rounding;
+    for (Eigen::Index c = 0; c < weight.rows(); ++c) error += f.noise[c] * std::abs(weight(c, k));
+    const double size = Y.col(k).cwiseAbs().maxCoeff();
+    if (size == 0.0) continue;
+    const double tolerance = kSafety * error + kArithmetic * size;
+    const double residual = fit.outside.col(k).cwiseAbs().maxCoeff();
+    if (!(residual <= tolerance)) fit.whole = false;
+    if (tolerance > 0.05 * size || (t.rounded && !f.all_resolved)) fit.checkable = false;
+    if (residual >= worst) {
+      worst = residual;
+      fit.tolerance = tolerance;
+    }
+    largest = std::max(largest, size);
+  }
+  fit.residual = largest > 0.0 ? worst / largest : 0.0;
+  fit.tolerance = largest > 0.0 ? fit.tolerance / largest : 0.0;
+  return fit;
+}
+
+std::vector<int> statesOf(const std::vector<int>& blocks) {
+  std::vector<int> states;
+  for (const int block : blocks) {
+    if (block < 0) {
+      states.insert(states.end(), {0, 1, 2});
+    } else {
+      states.push_back(Snapshot::row(block));
+      states.push_back(Snapshot::row(block) + 1);
+    }
+  }
+  return states;
+}
+
+std::vector<int> culprits(const Transition& t, const ProbedChange& change, const SpanBasis& basis,
+                          int most) {
+  std::vector<int> found;
+  SpanFit fit = fitSpan(t, change, basis);
+  while (!fit.whole && static_cast<int>(found.size()) < most) {
+    const Factorised f = factorise(basis, statesOf(found));
+    int best = 0;
+    double best_relief = -1.0;
+    for (int block = basis.begin == 0 ? -1 : 0; block < t.shared; ++block) {
+      if (std::find(found.begin(), found.end(), block) != found.end()) continue;
+      const int row = block < 0 ? 0 : Snapshot::row(block) - basis.begin;
+      const double gain = relief(f.Q, fit.outside, row, block < 0 ? 3 : 2);
+      if (gain > best_relief) {
+        best_relief = gain;
+        best = block;
+      }
+    }
+    if (best_relief <= 0.0) break;
+    found.push_back(best);
+    const std::vector<int> without = statesOf(found);
+    // Too few rows left to prove anything.
+    if (basis.W.rows() - static_cast<Eigen::Index>(without.size()) <= basis.W.cols()) return {};
+    fit = fitSpan(t, change, basis, without);
+  }
+  if (!fit.whole) return {};
+  for (std::size_t k = 0; k < found.size() && found.size() > 1;) {  // is each of them needed?
+    std::vector<int> fewer = found;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    if (fitSpan(t, change, basis, statesOf(fewer)).whole) {
+      found = std::move(fewer);
+    } else {
+      ++k;
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace slamscope::slam

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "slam/audit/support_diagnosis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/audit/change_range.hpp"
+
+namespace slamscope::slam {
+namespace {
+
+/// Beyond this share outside of the span a filter is not just linearised in another way.
+constexpr double kNearly = 0.05;
+
+struct Candidate {
+  std::string_view pattern;
+  std::string_view allow;  ///< empty: a fault
+  std::optional<Eigen::Vector2d> delta;
+  double tolerance = 1e-3;  ///< of |δ − lawful δ| or of |δ|
+};
+
+std::optional<Eigen::Vector2d> at(const std::optional<Means>& means, FeatureId id) {
+  if (!means) return std::nullopt;
+  const auto found = means->features.find(id);
+  if (found == means->features.end()) return std::nullopt;
+  return Eigen::Vector2d(found->second - means->pose.head<2>());
+}
+
+std::vector<Candidate> candidates(const Transition& t, const LinearisationPoints& points, int i,
+                                  const Eigen::Vector2d& lawful) {
+  const FeatureId id = t.id(i);
+  const auto k = static_cast<std::size_t>(i);
+  std::vector<Candidate> list;
+  const auto first = points.first_estimates.find(id);
+  if (first != points.first_estimates.end()) {
+    const Eigen::Vector2d l = first->second;
+    list.push_back({"first-estimate", "fej", l - t.before->pose.head<2>()});
+    if (points.after_prediction) {
+      list.push_back({"first-estimate", "fej", l - points.after_prediction->pose.head<2>()});
+    }
+  }
+  list.push_back({"bearing-sign", "", -lawful});
+  list.push_back({"bearing-one-over-q", "", lawful / lawful.squaredNorm()});
+  list.push_back({"stale", "", at(points.before_prediction, id)});
+  if (points.before_prediction) {
+    list.push_back({"stale", "", t.before->features[k] - points.before_prediction->pose.head<2>()});
+  }
+  // An iterated update linearises close to where it ends, whatever made it stop.
+  const Eigen::Vector2d after = t.after->features[k] - t.after->pose.head<2>();
+  list.push_back({"iterated", "iterated", after, 0.35 * (after - lawful).norm() / lawful.norm()});
+  return list;
+}
+
+/// The first candidate that explains the δ that was used.
+const Candidate* explain(const std::vector<Candidate>& list, const Eigen::Vector2d& used,
+                         const Eigen::Vector2d& lawful) {
+  for (const Candidate& candidate : list) {
+    if (!candidate.delta) continue;
+    const double off = (used - *candidate.delta).norm();
+    if (off <= candidate.tolerance * lawful.norm() && off < 0.5 * (used - lawful).norm()) {
+      return &candidate;
+    }
+  }
+  return nullptr;
+}
+
+/// Features were written outside the update: their rows taken out, all is whole.
+bool writtenOutside(const Transition& t, UpdateAnatomy& anatomy) {
+  anatomy.outside =
+      culprits(t, anatomy.change, anatomy.basis, std::max(1, std::min(12, t.shared / 2)));
+  if (anatomy.outside.empty()) return false;
+  std::vector<int> features = anatomy.outside;
+  std::erase(features, -1);
+  for (const int i : features) {
+    anatomy.support.blame.push_back({t.id(i), 1.0 / static_cast<double>(features.size())});
+  }
+  anatomy.support.amount = "P changes outside of what the observed features span";
+  anatomy.support.patterns.emplace_back(features.empty() ? "robot-written" : "feature-written");
+  return true;
+}
+
+/// Nothing but the blocks of robot and features changes.
+bool diagonalBlocksOnly(const Transition& t) {
+  if (t.shared < 2) return false;
+  for (int i = 0; i < t.shared; ++i) {
+    const int r = Snapshot::row(i);
+    const int other = Snapshot::row((i + 1) % t.shared);
+    if (t.change(r, 0) != 0.0 || t.change(r + 1, 1) != 0.0 || t.change(r, other) != 0.0)
+      return false;
+  }
+  return t.change(3, 3) != 0.0;
+}
+
+void blameShift(const Transition& t, int i, const Eigen::Vector2d& used,
+                const Eigen::Vector2d& lawful, Outcome& support) {
+  if (!support.evidence.empty()) return;
+  const std::string of = " of feature " + std::to_string(t.id(i)) + " from the robot, in H";
+  support.evidence.push_back({"x" + of, used.x(), lawful.x()});
+  support.evidence.push_back({"y" + of, used.y(), lawful.y()});
+}
+
+/// The Jacobian has the right form, but at other places of the features from the robot.
+bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
+                         const ChangeRange& range, UpdateAnatomy& anatomy) {
+  std::optional<std::string_view> allow;
+  std::vector<std::string_view> patterns;
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < anatomy.observed.size(); ++k) {
+    const int i = anatomy.observed[k];
+    const Eigen::Vector2d lawful = anatomy.deltas[k];
+    const std::optional<Eigen::Vector2d> used = linearisedAt(t, range, i);
+    if (!used) return false;
+    const double off = (*used - lawful).norm() / lawful.norm();
+    farthest = std::max(farthest, off);
+    if (off < 1e-5) continue;
+    const std::vector<Candidate> list = candidates(t, points, i, lawful);
+    const Candidate* found = explain(list, *used, lawful);
+    blameShift(t, i, *used, lawful, anatomy.support);
+    patterns.emplace_back(found != nullptr ? found->pattern : "linearised-elsewhere");
+    if (found != nullptr && !found->allow.empty()) allow = found->allow;
+    if (found == nullptr || found->allow.empty()) farthest = std::max(farthest, kNearly);
+  }
+  std::sort(patterns.begin(), patterns.end());
+  patterns.erase(std::unique(patterns.begin(), patterns.end()), patterns.end());
+  const bool variant = allow && farthest < 0.5 && patterns.size() == 1;
+  if (variant) {
+    anatomy.allow = allow;
+    anatomy.support = Outcome::notCheckable(
+        "linearised elsewhere than at the mean, as with --allow " + std::string(*allow));
+    return true;
+  }
+  anatomy.support.patterns = patterns;
+  anatomy.support.amount = "the observation Jacobian was not taken at the mean before the update";
+  return true;
+}
+
+/// H has the right numbers in another feature's block.
+bool wrongBlock(const Transition& t, const ChangeRange& range, UpdateAnatomy& anatomy) {
+  std::vector<int> written;
+  for (std::size_t k = 0; k < anatomy.observed.size(); ++k) {
+    for (int j = 0; j < t.shared; ++j) {
+      if (j == anatomy.observed[k] || !contains(t, range, j, anatomy.deltas[k])) continue;
+      if (std::find(written.begin(), written.end(), j) == written.end()) written.push_back(j);
+      break;
+    }
+  }
+  if (written.empty()) return false;
+  for (const int j : written) {
+    anatomy.support.blame.push_back({t.id(j), 1.0 / static_cast<double>(written.size())});
+  }
+  anatomy.support.patterns.emplace_back("wrong-block");
+  anatomy.support.amount =
+      "the observation of feature " + std::to_string(t.id(anatomy.observed[0])) +
+      " is written to the block of feature " + std::to_string(t.id(written[0]));
+  return true;
+}
+
+}  // namespace
+
+void diagnoseSupport(const Transition& t, const LinearisationPoints& points,
+                     UpdateAnatomy& anatomy) {
+  if (diagonalBlocksOnly(t)) {
+    anatomy.support.patterns.emplace_back("diagonal-only");
+    anatomy.support.amount = "P changes in blocks on the diagonal alone";
+    return;
+  }
+  if (writtenOutside(t, anatomy)) return;
+  const int rank = 2 * static_cast<int>(anatomy.observed.size());
+  const ChangeRange range = rangeOfChange(t, rank, rank + 8);
+  if (range.complete && range.Q.cols() <= rank) {
+    if (wrongBlock(t, range, anatomy)) return;
+    if (rank > 0 && linearisedElsewhere(t, points, range, anatomy)) return;
+  }
+  // Heading or position from outside: D ⊆ lawful span and P⁻e_θ, P⁻e_x, P⁻e_y.
+  SpanBasis absolute = anatomy.basis;
+  absolute.W.conservativeResize(Eigen::NoChange, absolute.W.cols() + 3);
+  absolute.noise.conservativeResize(absolute.W.cols());
+  for (int state = 0; state < 3; ++state) {
+    absolute.W.col(absolute.W.cols() - 3 + state) = t.scaledColumn(state);
+    absolute.noise[absolute.W.cols() - 3 + state] = t.noise * t.sigma[state];
+  }
+  const bool more_than_relative = range.Q.cols() > rank || rank == 0;
+  if (more_than_relative && fitSpan(t, anatomy.change, absolute).whole) {
+    anatomy.allow = "absolute-sensor";
+    anatomy.nearly = true;
+    anatomy.support = Outcome::notCheckable(
+        "something besides relative observations is used, as with --allow absolute-sensor");
+    return;
+  }
+  anatomy.nearly = anatomy.support.residual < kNearly;
+  if (anatomy.nearly) {
+    anatomy.support = Outcome::notCheckable(
+        "near the lawful span, not in it: linearised in another way than an EKF (UKF?)");
+    return;
+  }
+  anatomy.support.amount = "P changes outside of what the observed features span";
+}
+
+}  // namespace slamscope::slam

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "slam/audit/transition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <unordered_map>
+
+#include "slam/angle.hpp"
+#include "slam/simulation_random.hpp"
+
+namespace slamscope::slam {
+namespace {
+
+/// The snapshot with only the features at `places`, in that order.
+SnapshotPtr rearranged(const Snapshot& snapshot, const std::vector<int>& places) {
+  auto result = std::make_shared<Snapshot>();
+  result->time = snapshot.time;
+  result->sequence = snapshot.sequence;
+  result->event = snapshot.event;
+  result->pose = snapshot.pose;
+  result->diagonal_only = snapshot.diagonal_only;
+  result->observed = snapshot.observed;
+  result->observed_given = snapshot.observed_given;
+  result->observations = snapshot.observations;
+  std::vector<int> states{0, 1, 2};
+  for (const int place : places) {
+    result->ids.push_back(snapshot.ids[static_cast<std::size_t>(place)]);
+    result->features.push_back(snapshot.features[static_cast<std::size_t>(place)]);
+    states.push_back(Snapshot::row(place));
+    states.push_back(Snapshot::row(place) + 1);
+  }
+  const int size = static_cast<int>(states.size());
+  PackedCovariance P(size);
+  for (int row = 0; row < size; ++row) {
+    for (int col = 0; col <= row; ++col) {
+      P(row, col) = snapshot.covariance(states[static_cast<std::size_t>(row)],
+                                        states[static_cast<std::size_t>(col)]);
+    }
+  }
+  result->covariance = std::move(P);
+  return result;
+}
+
+int sharedPrefix(const Snapshot& a, const Snapshot& b) {
+  return static_cast<int>(
+      std::mismatch(a.ids.begin(), a.ids.end(), b.ids.begin(), b.ids.end()).first - a.ids.begin());
+}
+
+}  // namespace
+
+Eigen::VectorXd Transition::meanChange() const {
+  Eigen::VectorXd change(size());
+  change.head<3>() = after->pose - before->pose;
+  change[2] = wrapAngle(change[2]);
+  for (int i = 0; i < shared; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    change.segment<2>(Snapshot::row(i)) = after->features[k] - before->features[k];
+  }
+  return change;
+}
+
+Eigen::VectorXd Transition::scaledColumn(int column) const {
+  Eigen::VectorXd result(size());
+  const std::span<const double> packed = before->covariance.packed();
+  const auto c = static_cast<std::size_t>(column);
+  const std::size_t start = c * (c + 1) / 2;
+  for (std::size_t j = 0; j < c; ++j) result[static_cast<Eigen::Index>(j)] = packed[start + j];
+  std::size_t place = start + c;
+  for (std::size_t j = c; j < static_cast<std::size_t>(size()); ++j) {
+    result[static_cast<Eigen::Index>(j)] = packed[place];
+    place += j + 1;
+  }
+  return result.cwiseProduct(scale);
+}
+
+Eigen::MatrixXd Transition::scaledBlock(const std::vector<int>& states) const {
+  const auto count = static_cast<Eigen::Index>(states.size());
+  Eigen::MatrixXd block(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      block(i, j) = block(j, i) =
+          change(states[static_cast<std::size_t>(i)], states[static_cast<std::size_t>(j)]);
+    }
+  }
+  return block;
+}
+
+Transition lineUp(const SnapshotPtr& before, const SnapshotPtr& after, const Exactness& exactness) {
+  Transition t;
+  t.before = before;
+  t.after = after;
+  t.shared = sharedPrefix(*before, *after);
+  if (t.shared < before->featureCount()) {  // something was removed or re-ordered
+    std::unordered_map<FeatureId, int> place;
+    for (int k = 0; k < after->featureCount(); ++k)
+      place[after->ids[static_cast<std::size_t>(k)]] = k;
+    std::vector<int> in_before;
+    std::vector<int> in_after;
+    for (int k = 0; k < before->featureCount(); ++k) {
+      const auto found = place.find(before->ids[static_cast<std::size_t>(k)]);
+      if (found == place.end()) continue;
+      in_before.push_back(k);
+      in_after.push_back(found->second);
+      place.erase(found);
+    }
+    t.shared = static_cast<int>(in_before.size());
+    for (int k = 0; k < after->featureCount(); ++k) {
+      if (place.contains(after->ids[static_cast<std::size_t>(k)])) in_after.push_back(k);
+    }
+    t.before = rearranged(*before, in_before);
+    t.after = rearranged(*after, in_after);
+  }
+  t.sigma.resize(t.size());
+  t.scale.resize(t.size());
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < t.size(); ++i) {
+    const double variance = t.before->covariance(i, i);
+    t.sigma[i] = variance > 0.0 ? std::sqrt(variance) : 0.0;
+    t.scale[i] = variance > 1e-200 ? 1.0 / t.sigma[i] : 0.0;
+    if (t.scale[i] > 0.0) smallest = std::min(smallest, variance);
+  }
+  t.noise = exactness.covariance;
+  if (exactness.covariance_absolute > 0.0) t.noise += exactness.covariance_absolute / smallest;
+  double largest = t.before->pose.cwiseAbs().maxCoeff();
+  for (const Eigen::Vector2d& f : t.before->features) {
+    largest = std::max(largest, f.cwiseAbs().maxCoeff());
+  }
+  t.mean_noise = exactness.mean * largest + exactness.mean_absolute;
+  t.rounded = exactness.rounded;
+  t.observed_given = after->observed_given;
+  if (after->observed_given) {
+    for (int i = 0; i < t.shared; ++i) {
+      if (std::find(after->observed.begin(), after->observed.end(), t.id(i)) !=
+          after->observed.end()) {
+        t.observed.push_back(i);
+      }
+    }
+  }
+  return t;
+}
+
+Eigen::MatrixXd changeTimes(const Transition& transition, int begin, const Eigen::MatrixXd& W) {
+  const int rows = transition.size() - begin;
+  const Eigen::VectorXd scale = transition.scale.tail(rows);
+  const Eigen::MatrixXd input = scale.asDiagonal() * W;
+  Eigen::MatrixXd output = Eigen::MatrixXd::Zero(rows, W.cols());
+  const double* const before = transition.before->covariance.packed().data();
+  const double* const after = transition.after->covariance.packed().data();
+  Eigen::VectorXd row(rows);
+  for (int i = 0; i < rows; ++i) {
+    const auto r = static_cast<std::size_t>(begin + i);
+    const std::size_t start = r * (r + 1) / 2 + static_cast<std::size_t>(begin);
+    const Eigen::Map<const Eigen::VectorXd> a(before + start, i + 1);
+    const Eigen::Map<const Eigen::VectorXd> b(after + start, i + 1);
+    row.head(i + 1) = a - b;
+    for (Eigen::Index k = 0; k < W.cols(); ++k) {
+      output(i, k) += row.head(i + 1).dot(input.col(k).head(i + 1));
+      output.col(k).head(i) += input(i, k) * row.head(i);
+    }
+  }
+  return scale.asDiagonal() * output;
+}
+
+Eigen::MatrixXd probes(int rows, int count, std::uint64_t seed) {
+  RandomSource random(seed + 0x5eed);
+  Eigen::MatrixXd W(rows, count);
+  for (Eigen::Index k = 0; k < W.size(); ++k) {
+    const double u = random.uniform(-1.0, 1.0);
+    W(k) = u < 0.0 ? u - 0.5 : u + 0.5;
+  }
+  return W;
+}
+
+}  // namespace slamscope::slam
