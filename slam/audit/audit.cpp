@@ -80,7 +80,7 @@ Exactness Audit::State::exactness() const {
   e.covariance_absolute = covariance_precision.absolute();
   e.mean = 2.0 * mean_precision.relative();
   e.mean_absolute = mean_precision.absolute();
-  e.rounded = !covariance_precision.isDouble();
+  e.rounded = covariance_precision.isRounded();
   return e;
 }
 

@@ -74,15 +74,18 @@ InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& 
   const PseudoInverse inverse = pseudoInverse(t.scaledBlock(states), t.noise, scaledMeanNoise(t));
   const Eigen::VectorXd dx = pick(t.scale.cwiseProduct(t.meanChange()), states);
   const Eigen::VectorXd w = inverse.half.transpose() * dx;
-  const auto lawful = 2 * static_cast<Eigen::Index>(anatomy.observed.size());
+  const Eigen::Index lawful =
+      2 * static_cast<Eigen::Index>(anatomy.observed.size()) + (anatomy.heading_besides ? 1 : 0);
   estimate.dof = static_cast<int>(w.size());
   estimate.nis = w.squaredNorm();
-  if (estimate.dof != lawful || !anatomy.outside.empty() || anatomy.basis.W.cols() != lawful) {
-    return estimate;
-  }
+  const bool known = anatomy.basis.W.cols() + (anatomy.heading_besides ? 1 : 0) == lawful;
+  if (estimate.dof != lawful || !anatomy.outside.empty() || !known) return estimate;
   Eigen::MatrixXd U(static_cast<Eigen::Index>(states.size()), lawful);
+  const Eigen::VectorXd heading = t.scaledColumn(2);
   for (std::size_t k = 0; k < states.size(); ++k) {
-    U.row(static_cast<Eigen::Index>(k)) = anatomy.basis.W.row(states[k]);
+    const auto row = static_cast<Eigen::Index>(k);
+    U.row(row).head(anatomy.basis.W.cols()) = anatomy.basis.W.row(states[k]);
+    if (anatomy.heading_besides) U(row, lawful - 1) = heading[states[k]];
   }
   const Eigen::MatrixXd V = inverse.half.transpose() * U;
   const Eigen::VectorXd innovation = V.transpose() * w;

@@ -91,7 +91,7 @@ Outcome judgeFeature(const Transition& t, int index, int end, Sensor sensor,
   }
   Outcome outcome = Outcome::of(cross.off, tolerance);
   if (outcome.violated()) {
-    outcome.evidence.push_back(cross.worst);
+    outcome.show(cross.worst.what, cross.worst.given, cross.worst.lawful);
     outcome.amount = "the cross-covariance of a new feature is not G P_v";
     if (cross.given <= tolerance) outcome.patterns.emplace_back("initialise-uncorrelated");
   }
@@ -104,9 +104,8 @@ Outcome judgeFeature(const Transition& t, int index, int end, Sensor sensor,
     if (!outcome.violated())
       outcome.amount = "the covariance of a new feature is not G P_vv G^T + noise";
     outcome.residual = std::max({outcome.residual, -least, off});
-    outcome.evidence.push_back(
-        {"P(" + std::to_string(row + 1) + "," + std::to_string(row + 1) + ")", P_ll(0, 0),
-         lawful ? from_pose(0, 0) + (*lawful)(0, 0) : from_pose(0, 0)});
+    outcome.show("P(" + std::to_string(row + 1) + "," + std::to_string(row + 1) + ")", P_ll(0, 0),
+                 lawful ? from_pose(0, 0) + (*lawful)(0, 0) : from_pose(0, 0));
   }
   const bool identity = isRound(P_ll) && !isRound(from_pose) && P_ll(0, 0) == 1.0;
   if (identity && !(from_pose.isZero(0.0) && !lawful)) {

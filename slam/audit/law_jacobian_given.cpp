@@ -33,8 +33,9 @@ void showWorst(const Eigen::MatrixXd& given, const Eigen::MatrixXd& lawful, Outc
   Eigen::Index r = 0;
   Eigen::Index c = 0;
   (given - lawful).cwiseAbs().maxCoeff(&r, &c);
-  outcome.evidence = {{"H(" + std::to_string(r + 1) + "," + std::to_string(c + 1) + ")",
-                       given(r, c), lawful(r, c)}};
+  outcome.evidence.clear();
+  outcome.show("H(" + std::to_string(r + 1) + "," + std::to_string(c + 1) + ")", given(r, c),
+               lawful(r, c));
 }
 
 }  // namespace

@@ -107,10 +107,10 @@ Outcome checkMapStill(const Transition& t) {
         outcome.blame.push_back({t.id(i), 1.0 / static_cast<double>(grown.size())});
       }
     }
-    outcome.evidence.push_back({"P(" + std::to_string(moved.row + 1) + "," +
-                                    std::to_string(moved.col + 1) + ") after a prediction",
-                                t.after->covariance(moved.row, moved.col),
-                                t.before->covariance(moved.row, moved.col)});
+    outcome.show("P(" + std::to_string(moved.row + 1) + "," + std::to_string(moved.col + 1) +
+                     ") after a prediction",
+                 t.after->covariance(moved.row, moved.col),
+                 t.before->covariance(moved.row, moved.col));
     if (oneFactor(t)) outcome.patterns.emplace_back("inflation");
     if (outcome.patterns.empty() && diagonalOnly(t)) outcome.patterns.emplace_back("noise-on-map");
     outcome.amount = "a prediction changes the covariance of the map";

@@ -86,8 +86,8 @@ void showEntries(const Eigen::Matrix3d& F, const Eigen::Matrix3d& lawful, Outcom
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
       if (std::abs(F(r, c) - lawful(r, c)) < 0.02 * unit) continue;
-      outcome.evidence.push_back({"F(" + std::to_string(r + 1) + "," + std::to_string(c + 1) + ")",
-                                  F(r, c), lawful(r, c)});
+      outcome.show("F(" + std::to_string(r + 1) + "," + std::to_string(c + 1) + ")", F(r, c),
+                   lawful(r, c));
     }
   }
 }

@@ -46,7 +46,8 @@ Outcome checkNees(const Snapshot& snapshot, double alpha) {
     if (nees.value > bound && id != nullptr) outcome.blame.push_back({*id, nees.value});
     if (nees.value / bound <= outcome.residual) return;
     outcome.residual = nees.value / bound;
-    outcome.evidence = {{"NEES of " + what + ", lawful at most", nees.value, bound}};
+    outcome.evidence.clear();
+    outcome.show("NEES of " + what + ", lawful at most", nees.value, bound);
   };
   Eigen::Matrix3d P_vv;
   for (int r = 0; r < 3; ++r) {

@@ -25,7 +25,7 @@ void NisLaw::take(const InnovationEstimate& estimate, const Sample& sample) {
   bool broken = overall_.evidence() > std::log(4.0 / alpha_);
   for (const FeatureInnovation& f : estimate.features) {
     if (f.dof == 0) continue;
-    const auto entry = by_feature_.try_emplace(f.id, ScaleTest({0.4, 2.5})).first;
+    const auto entry = by_feature_.try_emplace(f.id, ScaleTest({0.5, 1.6})).first;
     entry->second.take(f.nis, f.dof);
     broken = broken || entry->second.evidence() > featureThreshold();
   }
@@ -59,7 +59,7 @@ Outcome NisLaw::outcome() const {
   if (!outcome.violated() && worst > threshold) outcome = Outcome::of(worst, threshold);
   if (!outcome.violated()) return outcome;
   outcome.blame = blame();
-  outcome.evidence.push_back({"mean NIS per degree of freedom", overall_.mean(), 1.0});
+  outcome.show("mean NIS per degree of freedom", overall_.mean(), 1.0);
   const bool above = std::max(overall_.evidenceAbove(), worst) >= overall_.evidenceBelow();
   outcome.amount = above ? "innovations are larger than the filter believes"
                          : "innovations are smaller than the filter believes";

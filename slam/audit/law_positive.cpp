@@ -67,7 +67,7 @@ Outcome judged(const Snapshot& snapshot, const std::vector<int>& states, double 
     if (w > 0.1 * total && total > 0.0) outcome.blame.push_back({id, w / total});
   }
   outcome.amount = "P has a negative eigenvalue, " + std::to_string(least) + " after scaling";
-  outcome.evidence.push_back({"least eigenvalue of P, scaled", least, 0.0});
+  outcome.show("least eigenvalue of P, scaled", least, 0.0);
   return outcome;
 }
 
@@ -81,8 +81,7 @@ Outcome diagonal(const Snapshot& snapshot) {
       outcome.blame.push_back({snapshot.ids[static_cast<std::size_t>(feature)], 1.0});
     }
     outcome.amount = "a variance is negative";
-    outcome.evidence.push_back(
-        {"P(" + std::to_string(i + 1) + "," + std::to_string(i + 1) + ")", variance, 0.0});
+    outcome.show("P(" + std::to_string(i + 1) + "," + std::to_string(i + 1) + ")", variance, 0.0);
     return outcome;
   }
   return Outcome::of(0.0, 0.0);

@@ -34,8 +34,8 @@ Outcome declared(const Eigen::Matrix3d& Q, const Eigen::Matrix3d& Q_lawful,
   Eigen::Index r = 0;
   Eigen::Index c = 0;
   off.cwiseAbs().maxCoeff(&r, &c);
-  outcome.evidence.push_back(
-      {"Q(" + std::to_string(r + 1) + "," + std::to_string(c + 1) + ")", Q(r, c), Q_lawful(r, c)});
+  outcome.show("Q(" + std::to_string(r + 1) + "," + std::to_string(c + 1) + ")", Q(r, c),
+               Q_lawful(r, c));
   outcome.amount = "the process noise is not the declared one";
   return outcome;
 }
@@ -69,12 +69,19 @@ Outcome checkProcessNoise(const Transition& t, const std::optional<Eigen::Matrix
       return Outcome::notCheckable("F of the filter is not known well enough");
     }
     outcome.amount = "a prediction takes uncertainty away: P_vv - F P_vv F^T is negative";
-    outcome.evidence.push_back(
-        {"least eigenvalue of P_vv - F P_vv F^T, scaled", eigen.eigenvalues()[0], 0.0});
+    const std::string what = "least eigenvalue of P_vv - F P_vv F^T, scaled";
+    outcome.show(what, eigen.eigenvalues()[0], 0.0);
     return outcome;
   }
   if (!motion_whole) return outcome;
-  if (t.after->Q) return declared(Q, *t.after->Q, scale, tolerance);
+  if (t.after->Q) {
+    outcome = declared(Q, *t.after->Q, scale, tolerance);
+    const Eigen::Matrix3d in_body = turned(*t.after->Q, -t.before->pose[2]);
+    if (outcome.violated() && !declared(Q, in_body, scale, tolerance).violated()) {
+      outcome.patterns.emplace_back("noise-unrotated");
+    }
+    return outcome;
+  }
   if (body_Q && !Q.isZero(0.0)) {
     outcome = declared(Q, turned(*body_Q, t.before->pose[2]), scale, tolerance);
     if (outcome.violated() && !declared(Q, *body_Q, scale, tolerance).violated()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/correlation.hpp"
 #include "slam/models.hpp"
 
 namespace slamscope::slam {
@@ -30,7 +31,10 @@ std::vector<std::string_view> patternsOf(const Eigen::Matrix2d& R, const Eigen::
     patterns.emplace_back("noise-degrees");
   }
   const double factor = R.trace() / declared.trace();
-  if (std::abs(factor - 0.5) < 0.1 && difference(R, 0.5 * declared) < 0.15) {
+  // Used twice, linearised a little differently: half of R in one direction, up to R in the other.
+  const Eigen::Vector2d scale = declared.diagonal().cwiseSqrt().cwiseInverse();
+  const PrincipalAxes axes = principalAxes(scale.asDiagonal() * R * scale.asDiagonal());
+  if (std::abs(axes.eigenvalues[1] - 0.5) < 0.1 && axes.eigenvalues[0] < 1.1) {
     patterns.emplace_back("observed-twice");
   } else if (factor > 0.0 && is(factor * declared)) {
     patterns.emplace_back("noise-factor");
@@ -44,12 +48,16 @@ Outcome checkSensorNoise(const Transition& t, const UpdateAnatomy& anatomy,
                          const InnovationEstimate& estimate, Sensor sensor,
                          const Eigen::Matrix2d& R) {
   if (sensor == Sensor::unknown) return Outcome::notCheckable("the sensor is not declared");
-  const bool nearly = !anatomy.fit.whole;
-  if (nearly && !anatomy.nearly) return {};
+  if (!anatomy.fit.whole && !anatomy.heading_besides) return {};
+  // Frozen linearisation: A would have to be taken at the heading of then.
+  if (anatomy.allow == "frozen-linearisation" && sensor == Sensor::relative_position) return {};
   Outcome worst = Outcome::notCheckable("R drowns in the change of P");
   for (std::size_t k = 0; k < estimate.features.size(); ++k) {
     const FeatureInnovation& f = estimate.features[k];
-    const double tolerance = (nearly ? 0.2 : 1e-4) + 4.0 * f.R_error;
+    // Seen twice in one update, say by two readings: R̂ is that of both together.
+    const auto& seen = t.after->observed;
+    if (std::count(seen.begin(), seen.end(), f.id) > 1) continue;
+    const double tolerance = (anatomy.heading_besides ? 0.05 : 1e-4) + 4.0 * f.R_error;
     if (!f.R_map.allFinite() || tolerance > 0.3) continue;
     Eigen::Vector3d pose = t.before->pose;
     const Eigen::Vector2d l = pose.head<2>() + anatomy.deltas[k];
@@ -63,7 +71,8 @@ Outcome checkSensorNoise(const Transition& t, const UpdateAnatomy& anatomy,
     if (one.violated()) {
       one.patterns = patternsOf(R_used, R, sensor, tolerance);
       one.amount = "the noise of an observation is not the declared R";
-      one.evidence = {{"R(1,1)", R_used(0, 0), R(0, 0)}, {"R(2,2)", R_used(1, 1), R(1, 1)}};
+      one.show("R(1,1)", R_used(0, 0), R(0, 0));
+      one.show("R(2,2)", R_used(1, 1), R(1, 1));
     }
     worst = one;
   }

@@ -101,10 +101,9 @@ void describe(const Transition& t, const Growth& growth, Outcome& outcome) {
     const auto id = static_cast<unsigned long long>(t.id(growth.feature));
     std::snprintf(text, sizeof text, "the variance of feature %llu grows by up to %.2g %%", id,
                   100.0 * growth.of_feature);
-    outcome.evidence.push_back({"variance of feature " + std::to_string(id) +
-                                    (axis == 0 ? " in x, lawful at most" : " in y, lawful at most"),
-                                t.after->covariance(r + axis, r + axis),
-                                t.before->covariance(r + axis, r + axis)});
+    outcome.show("variance of feature " + std::to_string(id) +
+                     (axis == 0 ? " in x, lawful at most" : " in y, lawful at most"),
+                 t.after->covariance(r + axis, r + axis), t.before->covariance(r + axis, r + axis));
   } else if (growth.i >= 0) {
     std::snprintf(text, sizeof text, "P_d of features %llu and %llu grows by %.2g %% of their own",
                   static_cast<unsigned long long>(t.id(growth.j)),
@@ -129,9 +128,8 @@ Outcome checkShrink(const Transition& t, bool map_only, bool everything) {
   double residual = growth.of_feature;
   if (!t.before->diagonal_only) {
     if (everything || !growth.features.empty()) lookAtPairs(t, tolerance, growth);
-    std::vector<int> blocks;
+    std::vector<int> blocks = t.observed;
     if (!map_only) blocks.push_back(-1);
-    blocks.insert(blocks.end(), t.observed.begin(), t.observed.end());
     const std::vector<int> states = statesOf(blocks);
     if (!states.empty()) {
       const Eigen::MatrixXd D = t.scaledBlock(states);

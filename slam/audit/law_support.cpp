@@ -114,8 +114,7 @@ UpdateAnatomy checkStepRank(const Transition& t) {
   }
   anatomy.support.amount = "P changes outside of what the observed features span";
   // Small and everywhere: another linearisation rule than that of an EKF.
-  anatomy.nearly = anatomy.outside.empty() && anatomy.support.residual < 0.05;
-  if (anatomy.nearly) {
+  if (anatomy.outside.empty() && anatomy.support.residual < 0.05) {
     anatomy.support = Outcome::notCheckable("near the lawful span, not in it (UKF?)");
   }
   return anatomy;

@@ -23,7 +23,8 @@ struct UpdateAnatomy {
   std::vector<int> outside;  ///< culprits: places of features, −1 the robot
   Outcome support;
   std::optional<std::string_view> allow;  ///< word of --allow that the pattern fits
-  bool nearly = false;  ///< D lies near the lawful span, but not in it: a few per cent outside
+  /// D lies in the span of P⁻B_iᵀ and P⁻e_θ: a compass, or an observation that was used twice.
+  bool heading_besides = false;
 };
 
 /// support (with gauge): range(D) ⊆ span{P⁻B_iᵀ : i ∈ O}, B_i = [−I, −J(l_i − p), I] at x⁻.

@@ -45,7 +45,8 @@ Outcome WhitenessLaw::outcome() const {
   if (count_ == 0) return Outcome::notCheckable("no innovations in the log (level L3)");
   Outcome outcome = Outcome::of(peak_, std::log(1.0 / alpha_));
   if (!outcome.violated()) return outcome;
-  outcome.evidence.push_back({"correlation of successive innovations", sum_ / squares_, 0.0});
+  const std::string what = "correlation of successive innovations";
+  outcome.show(what, sum_ / squares_, 0.0);
   outcome.amount = "innovations that follow one another are correlated";
   return outcome;
 }

@@ -34,18 +34,21 @@ void LogPrecision::takeOne(double value) {
 }
 
 double LogPrecision::relative() const {
-  if (!seen_ || isDouble()) return 0.5 * kRoundoff;
+  // Nobody logs three digits: these are round numbers, as at the start, and exact.
+  if (!seen_ || isDouble() || digits_ <= kRound) return 0.5 * kRoundoff;
   if (float32_ && digits_ > 7) return 6e-8;
   return std::max(0.5 * kRoundoff, 0.5 * std::pow(10.0, 1 - digits_));
 }
 
 double LogPrecision::absolute() const {
-  if (!seen_ || isDouble() || (float32_ && digits_ > 7) || decimals_ >= kManyDecimals) return 0.0;
+  if (!seen_ || isDouble() || digits_ <= kRound || (float32_ && digits_ > 7) ||
+      decimals_ >= kManyDecimals)
+    return 0.0;
   return 0.5 * std::pow(10.0, -decimals_);
 }
 
 std::string LogPrecision::name() const {
-  if (!seen_) return "unknown";
+  if (!seen_ || digits_ <= kRound) return "unknown";
   if (isDouble()) return "double";
   if (float32_ && digits_ > 7) return "float32";
   if (absolute() > 0.0) return std::to_string(decimals_) + " decimals";

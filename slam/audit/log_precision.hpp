@@ -19,12 +19,15 @@ class LogPrecision {
   [[nodiscard]] double absolute() const;
   /// "double", "float32", "6 digits", "6 decimals", "unknown" where no number was seen.
   [[nodiscard]] std::string name() const;
-  [[nodiscard]] bool isDouble() const { return seen_ && digits_ >= kDouble && !float32_; }
+  [[nodiscard]] bool isDouble() const { return digits_ >= kDouble && !float32_; }
+  /// Less than doubles.
+  [[nodiscard]] bool isRounded() const { return relative() > 1e-15 || absolute() > 0.0; }
 
  private:
   void takeOne(double value);
 
   static constexpr int kDouble = 13;        ///< significant digits from which on it is a double
+  static constexpr int kRound = 3;          ///< up to here they are round numbers
   static constexpr int kManyDecimals = 10;  ///< decimals from which on it is no fixed format
 
   int digits_ = 1;

@@ -27,6 +27,9 @@ struct Outcome {
   [[nodiscard]] bool checked() const { return kind == Kind::checked; }
   [[nodiscard]] bool violated() const { return checked() && !(residual <= tolerance); }
 
+  /// Adds evidence: the number found beside the one that the law demands.
+  void show(std::string_view what, double given, double lawful);
+
   [[nodiscard]] static Outcome of(double residual, double tolerance) {
     Outcome outcome;
     outcome.kind = Kind::checked;

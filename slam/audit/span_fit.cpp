@@ -209,7 +209,7 @@ std::vector<int> culprits(const Transition& t, const ProbedChange& change, const
     found.push_back(best);
     const std::vector<int> without = statesOf(found);
     // Too few rows left to prove anything.
-    if (basis.W.rows() - static_cast<Eigen::Index>(without.size()) <= basis.W.cols()) return {};
+    if (basis.W.rows() - static_cast<Eigen::Index>(without.size()) < basis.W.cols() + 3) return {};
     fit = fitSpan(t, change, basis, without);
   }
   if (!fit.whole) return {};

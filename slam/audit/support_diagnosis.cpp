@@ -11,6 +11,8 @@ namespace {
 
 /// Beyond this share outside of the span a filter is not just linearised in another way.
 constexpr double kNearly = 0.05;
+/// Rows that a span must leave over to prove anything.
+constexpr int kSpareRows = 3;
 
 struct Candidate {
   std::string_view pattern;
@@ -74,7 +76,6 @@ bool writtenOutside(const Transition& t, UpdateAnatomy& anatomy) {
   for (const int i : features) {
     anatomy.support.blame.push_back({t.id(i), 1.0 / static_cast<double>(features.size())});
   }
-  anatomy.support.amount = "P changes outside of what the observed features span";
   anatomy.support.patterns.emplace_back(features.empty() ? "robot-written" : "feature-written");
   return true;
 }
@@ -95,8 +96,8 @@ void blameShift(const Transition& t, int i, const Eigen::Vector2d& used,
                 const Eigen::Vector2d& lawful, Outcome& support) {
   if (!support.evidence.empty()) return;
   const std::string of = " of feature " + std::to_string(t.id(i)) + " from the robot, in H";
-  support.evidence.push_back({"x" + of, used.x(), lawful.x()});
-  support.evidence.push_back({"y" + of, used.y(), lawful.y()});
+  support.show("x" + of, used.x(), lawful.x());
+  support.show("y" + of, used.y(), lawful.y());
 }
 
 /// The Jacobian has the right form, but at other places of the features from the robot.
@@ -155,45 +156,46 @@ bool wrongBlock(const Transition& t, const ChangeRange& range, UpdateAnatomy& an
   return true;
 }
 
+/// Heading, or position too, from outside: D ⊆ lawful span and P⁻e_θ (P⁻e_x, P⁻e_y).
+bool somethingBesides(const Transition& t, UpdateAnatomy& anatomy) {
+  SpanBasis absolute = anatomy.basis;
+  for (const int state : {2, 0, 1}) {
+    absolute.W.conservativeResize(Eigen::NoChange, absolute.W.cols() + 1);
+    absolute.noise.conservativeResize(absolute.W.cols());
+    absolute.W.rightCols<1>() = t.scaledColumn(state);
+    absolute.noise[absolute.W.cols() - 1] = t.noise * t.sigma[state];
+    if (absolute.W.cols() + kSpareRows > absolute.W.rows()) return false;
+    if (state == 0 || !fitSpan(t, anatomy.change, absolute).whole) continue;
+    anatomy.heading_besides = state == 2;
+    anatomy.allow = "absolute-sensor";
+    anatomy.support = Outcome::notCheckable(
+        "something besides relative observations is used, as with --allow absolute-sensor");
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void diagnoseSupport(const Transition& t, const LinearisationPoints& points,
                      UpdateAnatomy& anatomy) {
-  if (diagonalBlocksOnly(t)) {
+  anatomy.support.amount = "P changes outside of what the observed features span";
+  const int rank = 2 * static_cast<int>(anatomy.observed.size());
+  const ChangeRange range = rangeOfChange(t, rank, rank + 8);
+  if (range.complete && range.Q.cols() <= rank) {  // an update, with another H
+    if (wrongBlock(t, range, anatomy)) return;
+    if (linearisedElsewhere(t, points, range, anatomy)) return;
+  } else if (diagonalBlocksOnly(t)) {
     anatomy.support.patterns.emplace_back("diagonal-only");
     anatomy.support.amount = "P changes in blocks on the diagonal alone";
     return;
-  }
-  if (writtenOutside(t, anatomy)) return;
-  const int rank = 2 * static_cast<int>(anatomy.observed.size());
-  const ChangeRange range = rangeOfChange(t, rank, rank + 8);
-  if (range.complete && range.Q.cols() <= rank) {
-    if (wrongBlock(t, range, anatomy)) return;
-    if (rank > 0 && linearisedElsewhere(t, points, range, anatomy)) return;
-  }
-  // Heading or position from outside: D ⊆ lawful span and P⁻e_θ, P⁻e_x, P⁻e_y.
-  SpanBasis absolute = anatomy.basis;
-  absolute.W.conservativeResize(Eigen::NoChange, absolute.W.cols() + 3);
-  absolute.noise.conservativeResize(absolute.W.cols());
-  for (int state = 0; state < 3; ++state) {
-    absolute.W.col(absolute.W.cols() - 3 + state) = t.scaledColumn(state);
-    absolute.noise[absolute.W.cols() - 3 + state] = t.noise * t.sigma[state];
-  }
-  const bool more_than_relative = range.Q.cols() > rank || rank == 0;
-  if (more_than_relative && fitSpan(t, anatomy.change, absolute).whole) {
-    anatomy.allow = "absolute-sensor";
-    anatomy.nearly = true;
-    anatomy.support = Outcome::notCheckable(
-        "something besides relative observations is used, as with --allow absolute-sensor");
+  } else if (writtenOutside(t, anatomy) || somethingBesides(t, anatomy)) {
     return;
   }
-  anatomy.nearly = anatomy.support.residual < kNearly;
-  if (anatomy.nearly) {
+  if (anatomy.support.residual < kNearly) {
     anatomy.support = Outcome::notCheckable(
         "near the lawful span, not in it: linearised in another way than an EKF (UKF?)");
-    return;
   }
-  anatomy.support.amount = "P changes outside of what the observed features span";
 }
 
 }  // namespace slamscope::slam

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What the audit costs beside the filter that it watches, per update, at level L2.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "slam/audit/audit.hpp"
+#include "slam/ekf_slam.hpp"
+#include "slam/recorder.hpp"
+
+namespace slamscope::slam {
+namespace {
+
+/// A filter with all its features in the map, standing still amid them.
+struct Bench {
+  explicit Bench(int features) : filter(options()) {
+    const Eigen::Matrix2d R = Eigen::Vector2d(0.0036, 0.0016).asDiagonal();
+    for (int k = 0; k < features; ++k) {
+      const double angle = 0.1 + 2.9 * k / features;
+      readings.push_back({static_cast<FeatureId>(k + 1), {1.0 + 0.001 * k, angle}, R});
+    }
+    filter.observe(std::chrono::nanoseconds{0}, readings);
+  }
+
+  static EkfOptions options() {
+    EkfOptions options;
+    options.initial_covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+    return options;
+  }
+
+  void update() {
+    filter.update(std::span<const Observation>(&readings[next++ % readings.size()], 1));
+  }
+
+  EkfSlam filter;
+  std::vector<Observation> readings;
+  std::size_t next = 0;
+};
+
+void filterUpdate(benchmark::State& state) {
+  Bench bench(static_cast<int>(state.range(0)));
+  for (auto _ : state) bench.update();
+}
+
+void filterUpdateWithSnapshot(benchmark::State& state) {
+  Bench bench(static_cast<int>(state.range(0)));
+  SnapshotPtr last;
+  const Subscription subscription =
+      bench.filter.observe(kRecordAll, [&](const SnapshotPtr& snapshot) { last = snapshot; });
+  for (auto _ : state) bench.update();
+}
+
+/// The audit alone: takes records of updates that were made before.
+void auditUpdate(benchmark::State& state) {
+  Bench bench(static_cast<int>(state.range(0)));
+  std::vector<SnapshotPtr> records;
+  const Subscription subscription = bench.filter.observe(
+      kRecordAll, [&](const SnapshotPtr& snapshot) { records.push_back(snapshot); });
+  for (int k = 0; k < 8; ++k) bench.update();
+  RunHeader header;
+  header.sensor = Sensor::range_bearing;
+  header.R = bench.readings[0].R;
+  std::size_t k = 0;
+  Audit audit({}, header);
+  for (auto _ : state) {
+    if (k == records.size()) {  // begin again: the first record follows none
+      state.PauseTiming();
+      audit = Audit({}, header);
+      audit.take(records[0]);
+      k = 1;
+      state.ResumeTiming();
+    }
+    audit.take(records[k++]);
+  }
+  state.SetLabel(std::string(verdictName(audit.report().verdict)));
+}
+
+BENCHMARK(filterUpdate)->Arg(15)->Arg(100)->Arg(300)->Arg(1000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(filterUpdateWithSnapshot)
+    ->Arg(15)
+    ->Arg(100)
+    ->Arg(300)
+    ->Arg(1000)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(auditUpdate)->Arg(15)->Arg(100)->Arg(300)->Arg(1000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace slamscope::slam
