@@ -135,8 +135,10 @@ AuditReport Audit::State::report() const {
     if (one.fault_class) report.classes.insert(*one.fault_class);
     report.laws.push_back(std::move(one));
   }
-  // Inconsistency speaks of linearisation only where the code is whole.
-  if (report.found(FaultClass::code)) {
+  // Inconsistency speaks of linearisation only where the code is whole; errors that the innovations
+  // show too are not the linearisation's.
+  const bool heading = at(Law::heading_floor).violations() > 0;
+  if (report.found(FaultClass::code) || (report.found(FaultClass::statistics) && !heading)) {
     report.classes.erase(FaultClass::linearisation);
   }
   for (const Signature* signature : fitting(all)) report.likely.emplace_back(signature->likely);

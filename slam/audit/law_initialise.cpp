@@ -107,8 +107,9 @@ Outcome judgeFeature(const Transition& t, int index, int end, Sensor sensor,
     outcome.show("P(" + std::to_string(row + 1) + "," + std::to_string(row + 1) + ")", P_ll(0, 0),
                  lawful ? from_pose(0, 0) + (*lawful)(0, 0) : from_pose(0, 0));
   }
-  const bool identity = isRound(P_ll) && !isRound(from_pose) && P_ll(0, 0) == 1.0;
-  if (identity && !(from_pose.isZero(0.0) && !lawful)) {
+  // The identity can be lawful: at an exactly known pose, or where the reading's noise is it.
+  const bool identity = isRound(P_ll) && P_ll(0, 0) == 1.0;
+  if (identity && (lawful ? off > 1e-5 + tolerance : !from_pose.isZero(0.0))) {
     outcome.residual = std::max(outcome.residual, 1.0);
     if (outcome.amount.empty()) outcome.amount = "the covariance of a new feature is the identity";
     outcome.patterns.emplace_back("initialise-identity");

@@ -41,7 +41,14 @@ Outcome checkRange(const Transition& t, const UpdateAnatomy& anatomy) {
   }
   const double size = mean.Y.cwiseAbs().maxCoeff();
   if (!(size > 0.0)) return Outcome::of(0.0, 0.0);
-  const SpanFit fit = fitSpan(t, mean, kept);
+  SpanFit fit = fitSpan(t, mean, kept);
+  if (!fit.whole && std::abs(t.meanChange()[2]) > 1.5) {
+    // A gain that turns the heading by more than half a turn can't be told from one by less.
+    kept.W.row(2).setZero();
+    mean.Y.row(2).setZero();
+    const SpanFit without = fitSpan(t, mean, kept);
+    if (without.whole) fit = without;
+  }
   const double tolerance = 1e-5 + fit.tolerance + 8.0 * rounding.maxCoeff() / size;
   if (tolerance > 0.2) return Outcome::notCheckable("the change of x drowns in the log's rounding");
   Outcome outcome = Outcome::of(fit.residual, tolerance);

@@ -190,13 +190,15 @@ std::vector<int> statesOf(const std::vector<int>& blocks) {
 
 std::vector<int> culprits(const Transition& t, const ProbedChange& change, const SpanBasis& basis,
                           int most) {
+  const bool robot_too = basis.begin == 0;
+  if (robot_too && fitSpan(t, change, basis, statesOf({-1})).whole) return {-1};
   std::vector<int> found;
   SpanFit fit = fitSpan(t, change, basis);
   while (!fit.whole && static_cast<int>(found.size()) < most) {
     const Factorised f = factorise(basis, statesOf(found));
     int best = 0;
     double best_relief = -1.0;
-    for (int block = basis.begin == 0 ? -1 : 0; block < t.shared; ++block) {
+    for (int block = robot_too ? -1 : 0; block < t.shared; ++block) {
       if (std::find(found.begin(), found.end(), block) != found.end()) continue;
       const int row = block < 0 ? 0 : Snapshot::row(block) - basis.begin;
       const double gain = relief(f.Q, fit.outside, row, block < 0 ? 3 : 2);

@@ -82,14 +82,16 @@ bool writtenOutside(const Transition& t, UpdateAnatomy& anatomy) {
 
 /// Nothing but the blocks of robot and features changes.
 bool diagonalBlocksOnly(const Transition& t) {
-  if (t.shared < 2) return false;
+  int changed = 0;
   for (int i = 0; i < t.shared; ++i) {
     const int r = Snapshot::row(i);
     const int other = Snapshot::row((i + 1) % t.shared);
-    if (t.change(r, 0) != 0.0 || t.change(r + 1, 1) != 0.0 || t.change(r, other) != 0.0)
-      return false;
+    const bool off = t.change(r, 0) != 0.0 || t.change(r + 1, 1) != 0.0 ||
+                     (t.shared > 1 && t.change(r, other) != 0.0);
+    if (off) return false;
+    if (t.change(r, r) != 0.0) ++changed;
   }
-  return t.change(3, 3) != 0.0;
+  return changed > 1;
 }
 
 void blameShift(const Transition& t, int i, const Eigen::Vector2d& used,
@@ -182,14 +184,15 @@ void diagnoseSupport(const Transition& t, const LinearisationPoints& points,
   anatomy.support.amount = "P changes outside of what the observed features span";
   const int rank = 2 * static_cast<int>(anatomy.observed.size());
   const ChangeRange range = rangeOfChange(t, rank, rank + 8);
-  if (range.complete && range.Q.cols() <= rank) {  // an update, with another H
-    if (wrongBlock(t, range, anatomy)) return;
-    if (linearisedElsewhere(t, points, range, anatomy)) return;
-  } else if (diagonalBlocksOnly(t)) {
+  if (diagonalBlocksOnly(t)) {
     anatomy.support.patterns.emplace_back("diagonal-only");
     anatomy.support.amount = "P changes in blocks on the diagonal alone";
     return;
-  } else if (writtenOutside(t, anatomy) || somethingBesides(t, anatomy)) {
+  }
+  if (range.complete && range.Q.cols() <= rank) {  // an update, with another H
+    if (wrongBlock(t, range, anatomy)) return;
+    if (linearisedElsewhere(t, points, range, anatomy)) return;
+  } else if (somethingBesides(t, anatomy) || writtenOutside(t, anatomy)) {
     return;
   }
   if (anatomy.support.residual < kNearly) {
