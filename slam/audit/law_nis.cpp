@@ -25,7 +25,7 @@ void NisLaw::take(const InnovationEstimate& estimate, const Sample& sample) {
   bool broken = overall_.evidence() > std::log(4.0 / alpha_);
   for (const FeatureInnovation& f : estimate.features) {
     if (f.dof == 0) continue;
-    const auto entry = by_feature_.try_emplace(f.id, ScaleTest({0.5, 1.6})).first;
+    const auto entry = by_feature_.try_emplace(f.id, ScaleTest({0.6, 1.5})).first;
     entry->second.take(f.nis, f.dof);
     broken = broken || entry->second.evidence() > featureThreshold();
   }

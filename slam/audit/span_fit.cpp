@@ -76,6 +76,17 @@ double relief(const Eigen::MatrixXd& Q, const Eigen::MatrixXd& outside, int row,
   return (r.transpose() * G.ldlt().solve(r)).trace();
 }
 
+/// Features with a variance that an update made larger.
+std::vector<int> growingFeatures(const Transition& t) {
+  std::vector<int> growing;
+  const double tolerance = 1e-8 + 8.0 * t.noise;
+  for (int i = 0; i < t.shared; ++i) {
+    const int r = Snapshot::row(i);
+    if (t.change(r, r) < -tolerance || t.change(r + 1, r + 1) < -tolerance) growing.push_back(i);
+  }
+  return growing;
+}
+
 }  // namespace
 
 SpanBasis observationBasis(const Transition& t, const std::vector<int>& features,
@@ -190,32 +201,36 @@ std::vector<int> statesOf(const std::vector<int>& blocks) {
 
 std::vector<int> culprits(const Transition& t, const ProbedChange& change, const SpanBasis& basis,
                           int most) {
-  const bool robot_too = basis.begin == 0;
-  if (robot_too && fitSpan(t, change, basis, statesOf({-1})).whole) return {-1};
-  std::vector<int> found;
-  SpanFit fit = fitSpan(t, change, basis);
+  const auto rows_left = [&](const std::vector<int>& blocks) {
+    return basis.W.rows() - static_cast<Eigen::Index>(statesOf(blocks).size());
+  };
+  if (basis.begin == 0 && rows_left({-1}) > basis.W.cols() &&
+      fitSpan(t, change, basis, statesOf({-1})).whole) {
+    return {-1};
+  }
+  const std::vector<int> grown = growingFeatures(t);  // beyond doubt
+  std::vector<int> found = grown;
+  if (static_cast<int>(found.size()) > most) return {};
+  SpanFit fit = fitSpan(t, change, basis, statesOf(found));
   while (!fit.whole && static_cast<int>(found.size()) < most) {
     const Factorised f = factorise(basis, statesOf(found));
-    int best = 0;
-    double best_relief = -1.0;
-    for (int block = robot_too ? -1 : 0; block < t.shared; ++block) {
-      if (std::find(found.begin(), found.end(), block) != found.end()) continue;
-      const int row = block < 0 ? 0 : Snapshot::row(block) - basis.begin;
-      const double gain = relief(f.Q, fit.outside, row, block < 0 ? 3 : 2);
+    int best = -1;
+    double best_relief = 0.0;
+    for (int i = 0; i < t.shared; ++i) {
+      if (std::find(found.begin(), found.end(), i) != found.end()) continue;
+      const double gain = relief(f.Q, fit.outside, Snapshot::row(i) - basis.begin, 2);
       if (gain > best_relief) {
         best_relief = gain;
-        best = block;
+        best = i;
       }
     }
-    if (best_relief <= 0.0) break;
+    if (best < 0) break;
     found.push_back(best);
-    const std::vector<int> without = statesOf(found);
-    // Too few rows left to prove anything.
-    if (basis.W.rows() - static_cast<Eigen::Index>(without.size()) < basis.W.cols() + 3) return {};
-    fit = fitSpan(t, change, basis, without);
+    if (rows_left(found) <= basis.W.cols()) break;  // too few rows to prove anything
+    fit = fitSpan(t, change, basis, statesOf(found));
   }
-  if (!fit.whole) return {};
-  for (std::size_t k = 0; k < found.size() && found.size() > 1;) {  // is each of them needed?
+  if (!fit.whole) return grown;
+  for (std::size_t k = grown.size(); k < found.size() && found.size() > 1;) {  // each one needed?
     std::vector<int> fewer = found;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
     if (fitSpan(t, change, basis, statesOf(fewer)).whole) {

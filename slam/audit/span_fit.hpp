@@ -53,8 +53,9 @@ struct SpanFit {
 [[nodiscard]] SpanFit fitSpan(const Transition& transition, const ProbedChange& change,
                               const SpanBasis& basis, const std::vector<int>& without = {});
 
-/// Features (or the robot: −1) whose rows and columns of D, taken out, leave the rest whole: the
-/// smallest such set that greedy search finds, empty where none of up to `most` blocks is found.
+/// Features, or the robot alone (−1), whose rows and columns of D, taken out, leave the rest whole:
+/// those whose variance grows, and the fewest others that a greedy search finds, up to `most` in
+/// all. Where none suffice, those whose variance grows; may be empty.
 [[nodiscard]] std::vector<int> culprits(const Transition& transition, const ProbedChange& change,
                                         const SpanBasis& basis, int most);
 
