@@ -36,10 +36,11 @@ Factorised factorise(const SpanBasis& basis, const std::vector<int>& without) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(W);
   const double drowned =
       std::max(1e-13, 10.0 * noise.maxCoeff() * std::sqrt(static_cast<double>(W.rows())));
+  // A direction that drowns is kept: to leave it out would leave out what D has along it.
   Eigen::Index rank = 0;
   const Eigen::Index most = std::min(W.rows(), W.cols());
-  while (rank < most && std::abs(qr.matrixR()(rank, rank)) > drowned) ++rank;
-  f.all_resolved = rank == W.cols();
+  while (rank < most && std::abs(qr.matrixR()(rank, rank)) > 1e-14) ++rank;
+  f.all_resolved = rank == W.cols() && std::abs(qr.matrixR()(rank - 1, rank - 1)) > drowned;
   f.Q = qr.householderQ() * Eigen::MatrixXd::Identity(W.rows(), rank);
   f.R = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
   f.noise.resize(rank);
@@ -226,7 +227,7 @@ std::vector<int> culprits(const Transition& t, const ProbedChange& change, const
     }
     if (best < 0) break;
     found.push_back(best);
-    if (rows_left(found) <= basis.W.cols()) break;  // too few rows to prove anything
+    if (rows_left(found) < basis.W.cols() + 3) break;  // too few rows to prove anything
     fit = fitSpan(t, change, basis, statesOf(found));
   }
   if (!fit.whole) return grown;

@@ -94,6 +94,16 @@ bool diagonalBlocksOnly(const Transition& t) {
   return changed > 1;
 }
 
+/// D_vm is zero, to the bit, while robot and map both change.
+bool crossUntouched(const Transition& t) {
+  for (int i = 3; i < t.size(); ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (t.change(i, j) != 0.0) return false;
+    }
+  }
+  return t.change(2, 2) != 0.0 && t.shared > 1 && t.change(3, 5) != 0.0;
+}
+
 void blameShift(const Transition& t, int i, const Eigen::Vector2d& used,
                 const Eigen::Vector2d& lawful, Outcome& support) {
   if (!support.evidence.empty()) return;
@@ -187,6 +197,11 @@ void diagnoseSupport(const Transition& t, const LinearisationPoints& points,
   if (diagonalBlocksOnly(t)) {
     anatomy.support.patterns.emplace_back("diagonal-only");
     anatomy.support.amount = "P changes in blocks on the diagonal alone";
+    return;
+  }
+  if (crossUntouched(t)) {
+    anatomy.support.patterns.emplace_back("cross-not-updated");
+    anatomy.support.amount = "P_vm does not change while P_vv and P_mm do";
     return;
   }
   if (range.complete && range.Q.cols() <= rank) {  // an update, with another H
