@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace slamscope::slam::experiments {
+
+struct HealthyTableOptions {
+  int runs = 1000;
+  std::uint64_t first = 1;
+  double alpha = 1e-3;
+  unsigned threads = 0;
+};
+
+/// Audits runs of correct filters and prints how often it cried out, and over which. Returns the
+/// number of code-fault verdicts, which must be 0.
+int printHealthyTable(const HealthyTableOptions& options);
+
+/// The lawful variants that break a law by design: with and without their word of `--allow`.
+/// Returns the number of code-fault verdicts where the word was given.
+int printVariantTable(const HealthyTableOptions& options);
+
+}  // namespace slamscope::slam::experiments

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// slamscope_experiments: the tables of what the audit finds and of what it wrongly finds.
+#include <CLI/CLI.hpp>
+
+#include "tests/experiments/fault_table.hpp"
+#include "tests/experiments/healthy_table.hpp"
+
+int main(int argc, char** argv) {
+  namespace experiments = slamscope::slam::experiments;
+  CLI::App app{"Experiments on the audit"};
+  app.require_subcommand(1);
+  CLI::App* audit = app.add_subcommand("audit", "faults found, false alarms, lawful variants");
+  experiments::FaultTableOptions faults;
+  experiments::HealthyTableOptions healthy;
+  experiments::HealthyTableOptions variants;
+  variants.runs = 20;
+  audit->add_option("--seeds", faults.seeds, "runs of each fault and kind of update")
+      ->capture_default_str();
+  audit->add_option("--fault", faults.faults, "only these faults");
+  audit->add_option("--healthy", healthy.runs, "runs of correct filters")->capture_default_str();
+  audit->add_option("--first", healthy.first, "number of the first of them")->capture_default_str();
+  audit->add_option("--variants", variants.runs, "runs of each lawful variant")
+      ->capture_default_str();
+  audit->add_option("--alpha", healthy.alpha, "family-wise error of the statistical laws")
+      ->capture_default_str();
+  audit->add_option("--threads", healthy.threads, "0: one per core")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  faults.alpha = variants.alpha = healthy.alpha;
+  faults.threads = variants.threads = healthy.threads;
+  int wrong_verdicts = 0;
+  if (faults.seeds > 0) experiments::printFaultTable(faults);
+  if (healthy.runs > 0) wrong_verdicts += experiments::printHealthyTable(healthy);
+  if (variants.runs > 0) wrong_verdicts += experiments::printVariantTable(variants);
+  return wrong_verdicts == 0 ? 0 : 1;
+}
