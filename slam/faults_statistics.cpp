@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bugs that leave every exact law whole: innovation, association, and noise that is not the
 // sensor's.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -35,6 +36,8 @@ class InnovationSign final : public EkfEquations {
 };
 
 /// One reading in ten of known features is taken for that feature's nearest neighbour in the map.
+/// Where the neighbour is read at the same time the two are mixed up, so that no feature is read
+/// twice: what a one-to-one association gets wrong.
 class WrongAssociation final : public EkfEquations {
  public:
   WrongAssociation(Sensor sensor, std::uint64_t seed) : EkfEquations(sensor), random_(seed) {}
@@ -43,8 +46,15 @@ class WrongAssociation final : public EkfEquations {
                                     std::span<const Observation> readings) override {
     std::vector<Observation> perceived = EkfEquations::perceive(state, readings);
     for (Observation& reading : perceived) {
-      if (random_.uniform() >= kShare) continue;
-      if (const auto row = state.rowOf(reading.id)) reading.id = nearestOther(state, *row);
+      const auto row = state.rowOf(reading.id);
+      if (!row) continue;
+      const FeatureId neighbour = nearestOther(state, *row);
+      const auto other = std::find_if(perceived.begin(), perceived.end(),
+                                      [&](const Observation& o) { return o.id == neighbour; });
+      const bool both = other != perceived.end();
+      if (random_.uniform() >= (both ? kShare / 2.0 : kShare)) continue;  // a swap spoils two
+      if (both) other->id = reading.id;
+      reading.id = neighbour;
     }
     return perceived;
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <set>
 
 #include "slam/faults.hpp"
 #include "slam/simulation.hpp"
@@ -285,6 +286,26 @@ TEST(FaultyAssociation, TakesOneReadingInTenForTheNearestNeighbour) {
     const double distance = (state.x.segment<2>(row) - own).norm();
     EXPECT_TRUE(distance == 0.0 || distance >= chosen);
   }
+}
+
+TEST(FaultyAssociation, MixesUpTwoReadingsAndNeverReadsAFeatureTwice) {
+  const EkfState state = healthyState();
+  const auto equations = makeFault("wrong-association", {Sensor::range_bearing, {}, 7});
+  std::vector<Observation> readings;
+  for (int index = 0; index < 6; ++index) {
+    readings.push_back(reading(state, index, Eigen::Vector2d::Zero()));
+  }
+  int wrong = 0;
+  for (int k = 0; k < 1000; ++k) {
+    std::set<FeatureId> ids;
+    for (const Observation& o : equations->perceive(state, readings)) {
+      const auto index = static_cast<std::size_t>(ids.size());
+      wrong += o.id != readings[index].id ? 1 : 0;
+      ids.insert(o.id);
+    }
+    ASSERT_EQ(ids.size(), readings.size());
+  }
+  EXPECT_NEAR(wrong / 6000.0, 0.1, 0.03);  // mutual neighbours may be swapped back
 }
 
 TEST(FaultyWorld, AMovedFeatureJumpsHalfWayAndTheOthersStay) {

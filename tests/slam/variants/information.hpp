@@ -15,8 +15,9 @@ class InformationForm final : public EkfEquations {
   void updateMean(EkfState& state, const Correction& correction) override {
     const Eigen::MatrixXd H = denseH(correction, state.size());
     const Eigen::MatrixXd HtRinv = H.transpose() * denseR(correction).inverse();
-    const Eigen::MatrixXd Y = wholeP(state).inverse() + HtRinv * H;
-    P_ = Y.llt().solve(Eigen::MatrixXd::Identity(state.size(), state.size()));
+    const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(state.size(), state.size());
+    const Eigen::MatrixXd Y = wholeP(state).llt().solve(I) + HtRinv * H;
+    P_ = Y.llt().solve(I);
     state.x += P_ * (HtRinv * correction.innovation);
     state.x[2] = wrapAngle(state.x[2]);
   }
