@@ -38,6 +38,8 @@ struct LabOptions {
   std::vector<LabPost> posts;
   double post_radius = 0.02, post_height = 0.18;  ///< m
 
+  bool furniture = true;  ///< a few things by the walls, over 2.8 m left and right of the middle
+
   int robot_tag_id = 0;
   double robot_tag_size = 0.20;  ///< m
   Eigen::Isometry3d T_robot_tag{

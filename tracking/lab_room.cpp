@@ -19,6 +19,11 @@ std::vector<Blocker> blockers(const LabOptions& options) {
     result.push_back(
         {.p_world = p.head<2>(), .radius = options.post_radius, .height = options.post_height});
   }
+  if (!options.furniture) return result;
+  // Roughly.
+  result.push_back({.p_world = {-3.02, 0.34}, .radius = 0.26, .height = 0.24, .contact = 0.05});
+  result.push_back({.p_world = {-3.08, -0.16}, .radius = 0.17, .height = 0.18, .contact = 0.05});
+  result.push_back({.p_world = {3.04, -0.35}, .radius = 0.25, .height = 0.20, .contact = 0.05});
   return result;
 }
 
@@ -29,7 +34,9 @@ Eigen::Array3f albedo(TagFace::Ink ink) {
 }
 
 Room::Room(const LabOptions& options)
-    : floor_(options.seed), things_(furniture()), light_(makeLight(options)) {
+    : floor_(options.seed),
+      things_(options.furniture ? furniture() : std::vector<Thing>{}),
+      light_(makeLight(options)) {
   if (!(options.post_radius > 0 && options.post_height > kFootHeight))
     throw std::invalid_argument("posts need a radius and a height above 5 mm");
   for (const LabTag& tag : options.tags)
@@ -61,7 +68,31 @@ LightMap Room::makeLight(const LabOptions& options) {
 }
 
 std::vector<Room::Thing> Room::furniture() {
-  return {};
+  std::vector<Thing> things;
+  const auto add = [&](const Eigen::Vector2d& centre, const Eigen::Vector2d& half, double bottom,
+                       double top, double yaw, const Eigen::Array3f& paint) {
+    const Eigen::Vector3d middle(centre.x(), centre.y(), (bottom + top) / 2);
+    things.push_back({.shape = makeBox(centre, half, bottom, top, yaw),
+                      .ball = {middle, 1.001 * std::hypot(half.norm(), (top - bottom) / 2)},
+                      .albedo = paint});
+  };
+  const Eigen::Array3f cardboard(104, 146, 184), packing_tape(128, 172, 206), crate(92, 104, 58);
+  add({-3.02, 0.34}, {0.21, 0.29}, 0, 0.26, 0.10, cardboard);
+  add({-3.02, 0.34}, {0.025, 0.29}, 0.26, 0.261, 0.10, packing_tape);
+  add({-3.08, -0.16}, {0.17, 0.15}, 0, 0.20, -0.22, cardboard);
+  add({-3.08, -0.16}, {0.17, 0.022}, 0.20, 0.201, -0.22, packing_tape);
+  // An open crate: four walls and what lies in it.
+  const Eigen::Vector2d at(3.04, -0.35);
+  for (const double side : {-1.0, 1.0}) {
+    add(at + Eigen::Vector2d(0.20 * side, 0), {0.012, 0.30}, 0, 0.22, 0, crate);
+    add(at + Eigen::Vector2d(0, 0.288 * side), {0.20, 0.012}, 0, 0.22, 0, crate);
+  }
+  add(at, {0.19, 0.28}, 0, 0.05, 0, 0.55F * crate);
+  add(at + Eigen::Vector2d(0.03, 0.06), {0.10, 0.13}, 0.05, 0.12, 0.4,
+      Eigen::Array3f(70, 128, 168));
+  add(at + Eigen::Vector2d(-0.05, -0.17), {0.06, 0.07}, 0.05, 0.15, -0.3,
+      Eigen::Array3f(176, 178, 180));
+  return things;
 }
 
 Room::Candidates Room::candidates(const Ray& ray_world, double spread) const {
