@@ -150,7 +150,7 @@ int wrongPixels(const Image& drawn, const reference::Picture& expected, const Sc
   int wrong = 0;
   for (int v = 0; v < drawn.height; ++v) {
     for (int u = 0; u < drawn.width; ++u) {
-      if (reference::nearEdge(expected, u, v)) continue;
+      if (expected.nearEdge(u, v)) continue;
       const int id = expected.at(u, v).id;
       const auto ellipsoids = static_cast<int>(scene.ellipsoids.size());
       const Rgba colour = id < 0            ? Rgba{0, 0, 0, 1}
