@@ -17,7 +17,8 @@ namespace slamscope::slam {
 ///
 /// Numbers are written in the shortest form that reads back to the same bits; non-finite ones as
 /// NaN, Infinity, -Infinity. The covariance is written packed (or as `covariance_diagonal` where
-/// only that is known) with the `asymmetry` of the matrix it came from beside it, time as `time_s` for people and `stamp_ns`, which is exact.
+/// only that is known) with the `asymmetry` of the matrix it came from beside it, time as `time_s`
+/// for people and `stamp_ns`, which is exact.
 [[nodiscard]] std::string formatHeader(const RunHeader& header);
 [[nodiscard]] std::string formatRecord(const Snapshot& snapshot);  ///< without the line's end
 /// The same, appended to `line`, which is not cleared: lets a writer reuse its buffer.

@@ -33,10 +33,8 @@ struct Motion {
 
 /// f_v of equation (1): `pose` (x, y, θ) moved by a body-frame increment; θ wrapped. Jacobians by
 /// the pose (F_x) and by the increment (G_u) on request.
-Eigen::Vector3d movePose(const Eigen::Vector3d& pose,
-                                       const Eigen::Vector3d& increment,
-                                       Eigen::Matrix3d* F_x = nullptr,
-                                       Eigen::Matrix3d* G_u = nullptr);
+Eigen::Vector3d movePose(const Eigen::Vector3d& pose, const Eigen::Vector3d& increment,
+                         Eigen::Matrix3d* F_x = nullptr, Eigen::Matrix3d* G_u = nullptr);
 
 /// The increment that takes pose `from` to pose `to`: movePose(from, result) == to.
 [[nodiscard]] Eigen::Vector3d incrementBetween(const Eigen::Vector3d& from,
@@ -47,15 +45,13 @@ Eigen::Vector3d movePose(const Eigen::Vector3d& pose,
 /// request. At zero distance the bearing and its Jacobian do not exist (Jacobian not finite).
 /// Throws std::invalid_argument for Sensor::unknown.
 Eigen::Vector2d observeFeature(Sensor sensor, const Eigen::Vector3d& pose,
-                                             const Eigen::Vector2d& feature,
-                                             Matrix23d* H_v = nullptr,
-                                             Eigen::Matrix2d* H_f = nullptr);
+                               const Eigen::Vector2d& feature, Matrix23d* H_v = nullptr,
+                               Eigen::Matrix2d* H_f = nullptr);
 
 /// Inverse of h_i: where the feature stands that reads `z` from `pose`. Jacobians by pose (G_v) and
 /// by reading (G_z) on request. Throws std::invalid_argument for Sensor::unknown.
-Eigen::Vector2d locateFeature(Sensor sensor, const Eigen::Vector3d& pose,
-                                            const Eigen::Vector2d& z, Matrix23d* G_v = nullptr,
-                                            Eigen::Matrix2d* G_z = nullptr);
+Eigen::Vector2d locateFeature(Sensor sensor, const Eigen::Vector3d& pose, const Eigen::Vector2d& z,
+                              Matrix23d* G_v = nullptr, Eigen::Matrix2d* G_z = nullptr);
 
 /// Equation (7): z − ẑ, a bearing wrapped to (−π, π].
 [[nodiscard]] Eigen::Vector2d observationDifference(Sensor sensor, const Eigen::Vector2d& z,
