@@ -4,9 +4,10 @@
 // D = A⁻¹d. It meets the ball where F = |D|² − |a × D|² > 0: a conic in pixel coordinates. Taken
 // about the centre's own pixel, where a × D = 0, no difference of large numbers is left in it.
 #version 460
-#extension GL_EXT_multiview : require
+#extension GL_ARB_shader_viewport_layer_array : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -23,8 +24,8 @@ layout(location = 6) flat out mat3 A_inverse_transposed;  // takes the ball's no
 layout(location = 9) flat out vec4 colour;
 
 void main() {
-  const EllipsoidGlyph e = ellipsoids[gl_InstanceIndex];
-  const mat3 R = frame.views[gl_ViewIndex].R_eye_shared;
+  const EllipsoidGlyph e = ellipsoids[instanceInEye()];
+  const mat3 R = frame.views[eye].R_eye_shared;
   const vec3 mu = eyeFromShared(e.centre);
   const mat3 A = mat3(R * e.axis0, R * e.axis1, R * e.axis2);
   const mat3 G = mat3(A[0] / dot(A[0], A[0]), A[1] / dot(A[1], A[1]), A[2] / dot(A[2], A[2]));

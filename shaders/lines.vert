@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A quad around the picture of one piece of a polyline, round ends included.
 #version 460
-#extension GL_EXT_multiview : require
+#extension GL_ARB_shader_viewport_layer_array : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -21,7 +22,7 @@ vec3 clipped(vec3 p, vec3 q) {
 }
 
 void main() {
-  const SegmentGlyph s = segments[gl_InstanceIndex];
+  const SegmentGlyph s = segments[instanceInEye()];
   const vec3 from = eyeFromShared(s.from);
   const vec3 to = eyeFromShared(s.to);
   if (from.z < frame.near && to.z < frame.near) {

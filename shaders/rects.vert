@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
-#extension GL_EXT_multiview : require
+#extension GL_ARB_shader_viewport_layer_array : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -13,7 +14,7 @@ layout(location = 0) flat out vec4 bounds;
 layout(location = 1) flat out vec4 colour;
 
 void main() {
-  const RectGlyph rect = rects[gl_InstanceIndex];
+  const RectGlyph rect = rects[instanceInEye()];
   bounds = vec4(rect.min_px, rect.max_px);
   colour = rect.colour;
   gl_Position = clipFromPixel(

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
-#extension GL_EXT_multiview : require
+#extension GL_ARB_shader_viewport_layer_array : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -14,7 +15,7 @@ layout(location = 1) flat out float halo;
 layout(location = 2) flat out vec4 colour;
 
 void main() {
-  const LetterGlyph letter = letters[gl_InstanceIndex];
+  const LetterGlyph letter = letters[instanceInEye()];
   vec2 corner = letter.offset_px;
   if (letter.anchored != 0) {
     const vec3 anchor = eyeFromShared(letter.anchor);

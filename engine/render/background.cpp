@@ -37,7 +37,6 @@ BackgroundPass::BackgroundPass(const PassSetup& setup)
       pipeline_(setup.core, {.vertex = shaderCode("background_vert"),
                              .fragment = shaderCode("background_frag"),
                              .sets = {setup.frame_layout, set_.layout()},
-                             .view_mask = setup.view_mask,
                              .blend = false}),
       sampler_(setup.core.device(), bilinearWithBlackBorder()),
       eyes_{Eye(setup.core), Eye(setup.core)} {

@@ -41,8 +41,7 @@ LetterPass::LetterPass(const PassSetup& setup, std::string name,
       instances_(setup.core, {atlasBinding()}),
       pipeline_(setup.core, {.vertex = shaderCode("text_vert"),
                              .fragment = shaderCode("text_frag"),
-                             .sets = {setup.frame_layout, instances_.set().layout()},
-                             .view_mask = setup.view_mask}) {}
+                             .sets = {setup.frame_layout, instances_.set().layout()}}) {}
 
 void LetterPass::append(const interop::LetterGlyph& like, std::string_view text, double height_px,
                         bool lit) {

@@ -49,8 +49,7 @@ LinePass::LinePass(const PassSetup& setup)
     : instances_(setup.core),
       pipeline_(setup.core, {.vertex = shaderCode("lines_vert"),
                              .fragment = shaderCode("lines_frag"),
-                             .sets = {setup.frame_layout, instances_.set().layout()},
-                             .view_mask = setup.view_mask}) {}
+                             .sets = {setup.frame_layout, instances_.set().layout()}}) {}
 
 void LinePass::append(const Polyline& line, const ViewSet& views) {
   std::vector<interop::vec3> points;

@@ -10,9 +10,8 @@ Renderer::Renderer(const gpu::Core& core, int views)
                          .type = vk::DescriptorType::eUniformBuffer,
                          .stages = vk::ShaderStageFlagBits::eVertex |
                                    vk::ShaderStageFlagBits::eFragment}}),
-      setup_{.core = core,
-             .frame_layout = frame_set_.layout(),
-             .view_mask = (1U << static_cast<unsigned>(views)) - 1U},
+      setup_{.core = core, .frame_layout = frame_set_.layout()},
+      views_(views),
       background_(setup_),
       lines_(setup_),
       arrows_(setup_),
@@ -62,8 +61,7 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
       .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};  // reversed: infinitely far
   const vk::Rect2D area = {.extent = target.extent};
   commands.beginRendering({.renderArea = area,
-                           .layerCount = 1,
-                           .viewMask = setup_.view_mask,
+                           .layerCount = static_cast<std::uint32_t>(views_),
                            .colorAttachmentCount = 1,
                            .pColorAttachments = &colour,
                            .pDepthAttachment = &depth});
@@ -72,7 +70,7 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
                                        .maxDepth = 1.0F});
   commands.setScissor(0, area);
 
-  const FrameContext context = {commands, frame_set_.handle(), lit_, stats};
+  const FrameContext context = {commands, frame_set_.handle(), views_, lit_, stats};
   background_.record(context);
   lines_.record(context);
   arrows_.record(context);

@@ -38,6 +38,7 @@ class Renderer {
   gpu::Buffer frame_buffer_;
   gpu::DescriptorSet frame_set_;
   PassSetup setup_;
+  int views_;
   bool lit_ = true;
 
   BackgroundPass background_;

@@ -2,7 +2,7 @@
 // Quads made of nothing but the vertex's number.
 // Depth is left to the fragment shader, or not tested.
 vec4 clipFromPixel(vec2 px) {
-  return vec4(2.0 * px / frame.views[gl_ViewIndex].size - 1.0, 0.5, 1.0);
+  return vec4(2.0 * px / frame.views[eye].size - 1.0, 0.5, 1.0);
 }
 
 // A vertex that makes no fragment.

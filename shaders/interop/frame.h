@@ -21,6 +21,7 @@ struct ViewData {
 struct FrameData {
   ViewData views[2];
   float near;  // m
+  uint eyes;   // 1 or 2
 };
 
 SLAMSCOPE_INTEROP_END
