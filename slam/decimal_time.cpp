@@ -9,7 +9,7 @@
 namespace slamscope::slam {
 namespace {
 
-constexpr double kLongest_s = 9.2e9;
+constexpr double kLongestSeconds = 9.2e9;
 
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
@@ -20,7 +20,7 @@ std::optional<std::int64_t> plainDecimal(std::string_view digits) {
   std::int64_t ns = 0;
   std::size_t k = 0;
   while (k < digits.size() && isDigit(digits[k])) ns = ns * 10 + (digits[k++] - '0');
-  if (k == 0 || k > 10 || ns > static_cast<std::int64_t>(kLongest_s)) return std::nullopt;
+  if (k == 0 || k > 10 || ns > static_cast<std::int64_t>(kLongestSeconds)) return std::nullopt;
   if (k < digits.size() && digits[k] == '.') ++k;
   int places = 0;
   for (; places < 9; ++places) {
@@ -45,7 +45,7 @@ std::optional<std::chrono::nanoseconds> parseSeconds(std::string_view text) {
   double seconds = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seconds);
   if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-  if (!(seconds <= kLongest_s)) return std::nullopt;
+  if (!(seconds <= kLongestSeconds)) return std::nullopt;
   const auto ns =
       static_cast<std::int64_t>(std::llroundl(static_cast<long double>(seconds) * 1e9L));
   return std::chrono::nanoseconds(negative ? -ns : ns);
