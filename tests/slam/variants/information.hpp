@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "slam/angle.hpp"
+#include "tests/slam/variants/joseph.hpp"
+
+namespace slamscope::slam::testing {
+
+/// Update in the information form: P⁺ = (P⁻¹ + Hᵀ R⁻¹ H)⁻¹, x⁺ = x⁻ + P⁺ Hᵀ R⁻¹ ν. Needs a regular
+/// P, so a start pose that is not exactly known.
+class InformationForm final : public EkfEquations {
+ public:
+  using EkfEquations::EkfEquations;
+
+  void updateMean(EkfState& state, const Correction& correction) override {
+    const Eigen::MatrixXd H = denseH(correction, state.size());
+    const Eigen::MatrixXd HtRinv = H.transpose() * denseR(correction).inverse();
+    const Eigen::MatrixXd Y = wholeP(state).inverse() + HtRinv * H;
+    P_ = Y.llt().solve(Eigen::MatrixXd::Identity(state.size(), state.size()));
+    state.x += P_ * (HtRinv * correction.innovation);
+    state.x[2] = wrapAngle(state.x[2]);
+  }
+
+  void updateCovariance(EkfState& state, const Correction& /*correction*/) override {
+    state.P = P_;
+  }
+
+ private:
+  Eigen::MatrixXd P_;
+};
+
+}  // namespace slamscope::slam::testing

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Filters that choose where they linearise.
+#pragma once
+
+#include <map>
+
+#include "slam/angle.hpp"
+#include "tests/slam/variants/joseph.hpp"
+
+namespace slamscope::slam::testing {
+
+/// Iterated EKF: the observation is linearised anew at the updated mean (Gauss-Newton), P is
+/// updated with the last Jacobian.
+class IteratedFilter final : public EkfEquations {
+ public:
+  using EkfEquations::EkfEquations;
+
+  Correction update(EkfState& state, std::span<const Observation> observations) override {
+    const Eigen::VectorXd prior = state.x;
+    EkfState at = state;
+    Correction c;
+    for (int iteration = 0; iteration < 4; ++iteration) {
+      std::vector<LinearisedObservation> linearised;
+      for (const Observation& o : observations) {
+        linearised.push_back(linearise(at, o));
+        Eigen::VectorXd moved = at.x - prior;
+        moved[2] = wrapAngle(moved[2]);
+        linearised.back().innovation += linearised.back().H.dense(at.size()) * moved;
+      }
+      c = correct(state, std::move(linearised));
+      if (!c.applied) return c;
+      at.x = prior + c.Y * c.S_factor.matrixL().solve(c.innovation);
+      at.x[2] = wrapAngle(at.x[2]);
+    }
+    state.x = at.x;
+    updateCovariance(state, c);
+    return c;
+  }
+};
+
+/// First-estimates Jacobian (Huang, Mourikis, Roumeliotis 2008): H at the predicted pose and at the
+/// place where each feature was first put; F by the difference of predicted poses.
+class FirstEstimatesFilter final : public EkfEquations {
+ public:
+  using EkfEquations::EkfEquations;
+
+  Eigen::Matrix3d motionJacobian(const EkfState& state, const Motion& motion) override {
+    const Eigen::Vector2d from = predicted_.value_or(state.pose()).head<2>();
+    const Eigen::Vector2d shift = movePose(state.pose(), motion.increment).head<2>() - from;
+    Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+    F(0, 2) = -shift.y();
+    F(1, 2) = shift.x();
+    return F;
+  }
+
+  void predictMean(EkfState& state, const Motion& motion) override {
+    EkfEquations::predictMean(state, motion);
+    predicted_ = state.pose();
+  }
+
+  ObservationJacobian observationJacobian(const EkfState& state, int row) override {
+    EkfState at = state;
+    if (predicted_) at.x.head<3>() = *predicted_;
+    const FeatureId id = state.ids[static_cast<std::size_t>((row - 3) / 2)];
+    if (const auto first = first_.find(id); first != first_.end()) {
+      at.x.segment<2>(row) = first->second;
+    }
+    return EkfEquations::observationJacobian(at, row);
+  }
+
+  void initialise(EkfState& state, const Observation& observation) override {
+    EkfEquations::initialise(state, observation);
+    first_[observation.id] = state.x.tail<2>();
+  }
+
+ private:
+  std::optional<Eigen::Vector3d> predicted_;
+  std::map<FeatureId, Eigen::Vector2d> first_;
+};
+
+/// Sequential updates that all keep the linearisation at the mean after the last prediction.
+class FrozenFilter final : public EkfEquations {
+ public:
+  using EkfEquations::EkfEquations;
+
+  Eigen::Matrix3d predict(EkfState& state, const Motion& motion) override {
+    const Eigen::Matrix3d Q = EkfEquations::predict(state, motion);
+    frozen_ = state.x;
+    return Q;
+  }
+
+  ObservationJacobian observationJacobian(const EkfState& state, int row) override {
+    return EkfEquations::observationJacobian(at(state, row), row);
+  }
+
+  Eigen::Vector2d innovation(const EkfState& state, int row, const Eigen::Vector2d& z) override {
+    const EkfState frozen = at(state, row);
+    Eigen::VectorXd moved = state.x - frozen.x;
+    moved[2] = wrapAngle(moved[2]);
+    return EkfEquations::innovation(frozen, row, z) -
+           EkfEquations::observationJacobian(frozen, row).dense(state.size()) * moved;
+  }
+
+ private:
+  /// Features that were born since then have no older place.
+  [[nodiscard]] EkfState at(const EkfState& state, int row) const {
+    EkfState frozen;
+    frozen.x = state.x;
+    if (row < frozen_.size()) frozen.x.head(frozen_.size()) = frozen_;
+    return frozen;
+  }
+
+  Eigen::VectorXd frozen_;
+};
+
+}  // namespace slamscope::slam::testing
