@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "slam/angle.hpp"
+#include "slam/ekf_rank_update.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -163,7 +164,7 @@ void EkfEquations::updateMean(EkfState& state, const Correction& correction) {
 }
 
 void EkfEquations::updateCovariance(EkfState& state, const Correction& correction) {
-  state.P.selfadjointView<Eigen::Lower>().rankUpdate(correction.Y, -1.0);
+  subtractOuterProduct(state.P, correction.Y);
 }
 
 void EkfEquations::initialise(EkfState& state, const Observation& observation) {

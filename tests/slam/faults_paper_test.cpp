@@ -58,7 +58,7 @@ TEST(FaultPaper, NoPairGrowsWithoutIt) {
   ASSERT_EQ(growth.end.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LT(ellipseArea(growth.end[k].maximum.P_d),
-              0.2 * ellipseArea(growth.start[k].maximum.P_d));
+              0.6 * ellipseArea(growth.start[k].maximum.P_d));
   }
 }
 
