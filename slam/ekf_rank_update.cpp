@@ -5,14 +5,6 @@
 #include <cstddef>
 #include <vector>
 
-// Sanitizers run before the resolvers of multi-versioned functions may.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define SLAMSCOPE_CLONES __attribute__((target_clones("fma", "default")))
-#else
-#define SLAMSCOPE_CLONES
-#endif
-
 namespace slamscope::slam {
 namespace {
 
@@ -28,7 +20,11 @@ using Vector4 [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double
 }
 
 /// `panels`: Y in panels of eight rows, each panel k by k, the last one filled up with zeros.
-SLAMSCOPE_CLONES
+// Sanitizers run before the resolvers of multi-versioned functions may.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+[[gnu::target_clones("fma", "default")]]
+#endif
 void subtractPanels(double* P, std::ptrdiff_t size, const double* panels, std::ptrdiff_t m) {
   for (std::ptrdiff_t col = 0; col < size; col += kCols) {
     const double* const right = panels + col / kRows * kRows * m + col % kRows;
