@@ -99,6 +99,9 @@ class EkfSlam : public Subject {
  private:
   void advance(std::chrono::nanoseconds time);
   bool passes(const Observation& observation);
+  /// Takes out, and counts, readings that have no Jacobian here; whether some went and some are
+  /// left.
+  bool dropUndefined(std::vector<Observation>& observations);
   std::vector<FeatureId> updateOnce(std::span<const Observation> observations);
   [[nodiscard]] Snapshot makeSnapshot(Event event) const;
   template <typename Fill>
