@@ -78,7 +78,7 @@ class LiveFilter(program.InAFolder):
         return [f for f in self.load(report)["frames"] if f["drawn"]["features"] > 0]
 
     def test_standard_input(self):
-        feeder = self.filter("--rate", 30, "--steps", 120, stdout=subprocess.PIPE)
+        feeder = self.filter("--rate", 30, "--steps", 300, stdout=subprocess.PIPE)
         done = subprocess.run([program.PROGRAM, "monitor", "--slam", "-", "--report", "r.json"],
                               stdin=feeder.stdout, cwd=self.folder, capture_output=True, text=True,
                               timeout=120, env=NO_DISPLAY)
