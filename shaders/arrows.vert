@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A box around the picture of a flat arrow: a shaft and a head, seven corners in its plane.
 #version 460
-#extension GL_ARB_shader_viewport_layer_array : require
+#extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -20,7 +19,7 @@ layout(location = 4) flat out vec4 colour;
 const float kShaftWidth = 0.36;  // of the head's
 
 void main() {
-  const ArrowGlyph arrow = arrows[instanceInEye()];
+  const ArrowGlyph arrow = arrows[gl_InstanceIndex];
   const float size = length(arrow.along);
   const float head = min(2.2 * length(arrow.across) / max(size, 1e-12), 0.6);  // share of the length
   const vec3 side = kShaftWidth * arrow.across;
@@ -50,5 +49,5 @@ void main() {
   head01 = vec4(px[4], px[5]);
   head2 = px[6];
   colour = arrow.colour;
-  gl_Position = clipFromPixel(mix(low - 1.0, high + 1.0, 0.5 + 0.5 * stripCorner()));
+  gl_Position = boxCorner(low - 1.0, high + 1.0);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The camera's picture behind the scene; undistorted on the way where there is a lookup map.
 #version 460
+#extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "common/eye.frag.glsl"
 #include "common/view.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2DArray picture0;
@@ -26,9 +26,9 @@ vec4 seen(sampler2DArray picture, sampler2DArray map, uint kind) {
 }
 
 void main() {
-  const uint kind = frame.views[eye].background;
+  const uint kind = frame.views[gl_ViewIndex].background;
   vec4 texel;
-  if (eye == 0) {
+  if (gl_ViewIndex == 0) {
     texel = seen(picture0, map0, kind);
   } else {
     texel = seen(picture1, map1, kind);

@@ -2,10 +2,10 @@
 // The side is flat in the cone's colour, so that its two edges are straight steps of one height all
 // along and the tip can be measured in the picture; light falls on the lid alone.
 #version 460
+#extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "common/coverage.glsl"
-#include "common/eye.frag.glsl"
 #include "common/view.glsl"
 #include "common/shade.glsl"
 
@@ -61,7 +61,7 @@ void main() {
   const bool inside = coverage > 0.996;
   if (coverage <= 0.0 || inside == kEdges) discard;
 
-  const vec2 uv = gl_FragCoord.xy - frame.views[eye].principal;
+  const vec2 uv = gl_FragCoord.xy - frame.views[gl_ViewIndex].principal;
   const vec3 ray = vec3(0.0, 0.0, 1.0) + uv.x * rayPerU() + uv.y * rayPerV();
   const vec3 middle = tip + rim_l_sizes.w * axis;
   const float plane = dot(middle, axis);

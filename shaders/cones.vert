@@ -4,10 +4,9 @@
 // axis, r the radius, h the height, lines n through the tip touch where
 // nᵀ (r² J Jᵀ − (r² + h²) Jk (Jk)ᵀ) n = 0.
 #version 460
-#extension GL_ARB_shader_viewport_layer_array : require
+#extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -36,9 +35,9 @@ vec4 nullDirections(float p, float q, float s, vec2 inside) {
 }
 
 void main() {
-  const ConeGlyph cone = cones[instanceInEye()];
+  const ConeGlyph cone = cones[gl_InstanceIndex];
   tip = eyeFromShared(cone.tip);
-  axis = frame.views[eye].R_eye_shared * cone.axis;
+  axis = frame.views[gl_ViewIndex].R_eye_shared * cone.axis;
   const float r = cone.radius;
   const float h = cone.height;
   const vec3 rim = tip + h * axis;
@@ -85,5 +84,5 @@ void main() {
   const vec2 reach = sqrt(max(variance, 0.0));
   const vec2 low = min(tip_px, rim_px + middle - reach) - 1.0;
   const vec2 high = max(tip_px, rim_px + middle + reach) + 1.0;
-  gl_Position = clipFromPixel(mix(low, high, 0.5 + 0.5 * stripCorner()));
+  gl_Position = boxCorner(low, high);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
+#extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "common/coverage.glsl"
-#include "common/eye.frag.glsl"
 #include "common/view.glsl"
 #include "common/shade.glsl"
 
@@ -35,7 +35,7 @@ void main() {
   if (kLit) {
     const vec3 ball_normal = -(cross(D, cross(a, D)) + root * D) / DD;
     const vec3 normal = normalize(A_inverse_transposed * ball_normal);
-    const vec2 uv = gl_FragCoord.xy - frame.views[eye].principal;
+    const vec2 uv = gl_FragCoord.xy - frame.views[gl_ViewIndex].principal;
     const vec3 ray = vec3(0.0, 0.0, 1.0) + uv.x * rayPerU() + uv.y * rayPerV();
     rgb = shade(rgb, normal, ray, edgeDistance(at));
   }

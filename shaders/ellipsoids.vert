@@ -4,10 +4,9 @@
 // D = A⁻¹d. It meets the ball where F = |D|² − |a × D|² > 0: a conic in pixel coordinates. Taken
 // about the centre's own pixel, where a × D = 0, no difference of large numbers is left in it.
 #version 460
-#extension GL_ARB_shader_viewport_layer_array : require
+#extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -24,8 +23,8 @@ layout(location = 6) flat out mat3 A_inverse_transposed;  // takes the ball's no
 layout(location = 9) flat out vec4 colour;
 
 void main() {
-  const EllipsoidGlyph e = ellipsoids[instanceInEye()];
-  const mat3 R = frame.views[eye].R_eye_shared;
+  const EllipsoidGlyph e = ellipsoids[gl_InstanceIndex];
+  const mat3 R = frame.views[gl_ViewIndex].R_eye_shared;
   const vec3 mu = eyeFromShared(e.centre);
   const mat3 A = mat3(R * e.axis0, R * e.axis1, R * e.axis2);
   const mat3 G = mat3(A[0] / dot(A[0], A[0]), A[1] / dot(A[1], A[1]), A[2] / dot(A[2], A[2]));
@@ -60,7 +59,7 @@ void main() {
   colour = e.colour;
 
   if (!in_front) {
-    gl_Position = vec4(stripCorner(), 0.5, 1.0);
+    gl_Position = boxCorner(vec2(0.0), frame.views[gl_ViewIndex].size);
     return;
   }
   // The dual conic C = J Σ Jᵀ − … about the centre's pixel gives middle and shape of the outline.
@@ -76,6 +75,13 @@ void main() {
   const float variance1 = S.x * n.x * n.x + 2.0 * S.y * n.x * n.y + S.z * n.y * n.y;
   const float variance2 = S.x * n.y * n.y - 2.0 * S.y * n.x * n.y + S.z * n.x * n.x;
   const vec2 half_size = sqrt(max(vec2(variance1, variance2), 0.0)) + 1.0;
-  const vec2 corner = stripCorner() * half_size;
-  gl_Position = clipFromPixel(reference + middle + corner.x * n + corner.y * vec2(-n.y, n.x));
+  const vec2 centre = reference + middle;
+  const float reach_px = half_size.x + half_size.y;
+  if (insideBorder(centre - reach_px) && insideBorder(centre + reach_px)) {
+    const vec2 corner = stripCorner() * half_size;
+    gl_Position = clipFromPixel(centre + corner.x * n + corner.y * vec2(-n.y, n.x));
+  } else {
+    const vec2 box = sqrt(max(vec2(S.x, S.z), 0.0)) + 1.0;
+    gl_Position = boxCorner(centre - box, centre + box);
+  }
 }

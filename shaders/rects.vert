@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
-#extension GL_ARB_shader_viewport_layer_array : require
+#extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -14,9 +13,8 @@ layout(location = 0) flat out vec4 bounds;
 layout(location = 1) flat out vec4 colour;
 
 void main() {
-  const RectGlyph rect = rects[instanceInEye()];
+  const RectGlyph rect = rects[gl_InstanceIndex];
   bounds = vec4(rect.min_px, rect.max_px);
   colour = rect.colour;
-  gl_Position = clipFromPixel(
-      mix(floor(rect.min_px), ceil(rect.max_px), 0.5 + 0.5 * stripCorner()));
+  gl_Position = boxCorner(floor(rect.min_px), ceil(rect.max_px));
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #version 460
-#extension GL_ARB_shader_viewport_layer_array : require
+#extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "common/eye.vert.glsl"
 #include "common/view.glsl"
 #include "common/quad.glsl"
 #include "interop/glyphs.h"
@@ -15,7 +14,7 @@ layout(location = 1) flat out float halo;
 layout(location = 2) flat out vec4 colour;
 
 void main() {
-  const LetterGlyph letter = letters[instanceInEye()];
+  const LetterGlyph letter = letters[gl_InstanceIndex];
   vec2 corner = letter.offset_px;
   if (letter.anchored != 0) {
     const vec3 anchor = eyeFromShared(letter.anchor);
@@ -30,6 +29,5 @@ void main() {
   texel_from_pixel = letter.uv - (corner + letter.min_px);
   halo = float(letter.halo);
   colour = letter.colour;
-  gl_Position =
-      clipFromPixel(corner + mix(letter.min_px, letter.max_px, 0.5 + 0.5 * stripCorner()));
+  gl_Position = boxCorner(corner + letter.min_px, corner + letter.max_px);
 }

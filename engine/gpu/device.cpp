@@ -23,7 +23,7 @@ struct Need {
 
 std::array<Need, 5> needs(FeatureChain& chain) {
   return {
-      {{"shaderOutputLayer", &chain.get<vk::PhysicalDeviceVulkan12Features>().shaderOutputLayer},
+      {{"multiview", &chain.get<vk::PhysicalDeviceVulkan11Features>().multiview},
        {"scalarBlockLayout", &chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout},
        {"dynamicRendering", &chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering},
        {"synchronization2", &chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2},

@@ -62,7 +62,8 @@ Pipeline::Pipeline(const Core& core, const PipelineInfo& info)
   const auto blend = vk::PipelineColorBlendStateCreateInfo{}.setAttachments(attachment);
   const std::array dynamic_states = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
   const auto dynamic = vk::PipelineDynamicStateCreateInfo{}.setDynamicStates(dynamic_states);
-  const auto rendering = vk::PipelineRenderingCreateInfo{.depthAttachmentFormat = info.depth_format}
+  const auto rendering = vk::PipelineRenderingCreateInfo{.viewMask = info.view_mask,
+                                                         .depthAttachmentFormat = info.depth_format}
                              .setColorAttachmentFormats(info.colour_format);
 
   pipeline_ = {core.device(), nullptr,

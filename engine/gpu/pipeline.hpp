@@ -10,6 +10,7 @@ namespace slamscope::engine::gpu {
 struct PipelineInfo {
   SpirV vertex = {}, fragment = {};
   std::vector<vk::DescriptorSetLayout> sets = {};
+  std::uint32_t view_mask = 1;  ///< one bit a view, as in the rendering it is used in
   vk::Format colour_format = vk::Format::eR8G8B8A8Unorm;
   vk::Format depth_format = vk::Format::eD32Sfloat;
   bool blend = true;        ///< over what is there, by the alpha that the shader gives

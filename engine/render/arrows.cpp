@@ -13,7 +13,8 @@ ArrowPass::ArrowPass(const PassSetup& setup)
     : instances_(setup.core),
       pipeline_(setup.core, {.vertex = shaderCode("arrows_vert"),
                              .fragment = shaderCode("arrows_frag"),
-                             .sets = {setup.frame_layout, instances_.set().layout()}}) {}
+                             .sets = {setup.frame_layout, instances_.set().layout()},
+                             .view_mask = setup.view_mask}) {}
 
 void ArrowPass::update(std::span<const Arrow> arrows, const ViewSet& views, int& not_drawn) {
   std::vector<interop::ArrowGlyph> glyphs;

@@ -37,6 +37,7 @@ BackgroundPass::BackgroundPass(const PassSetup& setup)
       pipeline_(setup.core, {.vertex = shaderCode("background_vert"),
                              .fragment = shaderCode("background_frag"),
                              .sets = {setup.frame_layout, set_.layout()},
+                             .view_mask = setup.view_mask,
                              .blend = false}),
       sampler_(setup.core.device(), bilinearWithBlackBorder()),
       eyes_{Eye(setup.core), Eye(setup.core)} {
@@ -79,7 +80,7 @@ void BackgroundPass::recordUpload(const vk::raii::CommandBuffer& commands) {
 }
 
 void BackgroundPass::record(const FrameContext& context) const {
-  context.draw("background", pipeline_, set_.handle(), 3, any_picture_ ? 1 : 0);
+  context.draw("background", pipeline_, set_.handle(), 4, any_picture_ ? 1 : 0);
 }
 
 }  // namespace slamscope::engine

@@ -15,6 +15,7 @@ gpu::Pipeline pipeline(const PassSetup& setup, const Instances& instances, bool 
           {.vertex = shaderCode("cones_vert"),
            .fragment = shaderCode("cones_frag"),
            .sets = {setup.frame_layout, instances.set().layout()},
+           .view_mask = setup.view_mask,
            .depth_test = true,
            .depth_write = !edges,
            .constants = {lit ? VK_TRUE : VK_FALSE, edges ? VK_TRUE : VK_FALSE}}};

@@ -17,6 +17,7 @@ gpu::PipelineInfo pipelineInfo(const PassSetup& setup, const Instances& instance
   return {.vertex = shaderCode("ellipsoids_vert"),
           .fragment = shaderCode("ellipsoids_frag"),
           .sets = {setup.frame_layout, instances.set().layout()},
+          .view_mask = setup.view_mask,
           .depth_test = true,
           .depth_write = true,
           .constants = {lit ? VK_TRUE : VK_FALSE}};

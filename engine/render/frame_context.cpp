@@ -20,8 +20,7 @@ void FrameContext::draw(const std::string& pass, const gpu::Pipeline& pipeline,
   const std::array sets = {frame_set, pass_set};
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.handle());
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipeline.layout(), 0, sets, {});
-  commands.draw(static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(instances * views),
-                0, 0);
+  commands.draw(static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(instances), 0, 0);
 }
 
 }  // namespace slamscope::engine

@@ -13,13 +13,13 @@ namespace slamscope::engine {
 struct PassSetup {
   const gpu::Core& core;
   vk::DescriptorSetLayout frame_layout;  ///< set 0: the frame's views
+  std::uint32_t view_mask = 1;
 };
 
 /// What every pass is recorded with.
 struct FrameContext {
   const vk::raii::CommandBuffer& commands;
   vk::DescriptorSet frame_set;
-  int views = 1;
   bool lit = true;
   FrameStats& stats;
 

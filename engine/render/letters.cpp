@@ -41,7 +41,8 @@ LetterPass::LetterPass(const PassSetup& setup, std::string name,
       instances_(setup.core, {atlasBinding()}),
       pipeline_(setup.core, {.vertex = shaderCode("text_vert"),
                              .fragment = shaderCode("text_frag"),
-                             .sets = {setup.frame_layout, instances_.set().layout()}}) {}
+                             .sets = {setup.frame_layout, instances_.set().layout()},
+                             .view_mask = setup.view_mask}) {}
 
 void LetterPass::append(const interop::LetterGlyph& like, std::string_view text, double height_px,
                         bool lit) {

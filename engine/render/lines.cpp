@@ -49,7 +49,8 @@ LinePass::LinePass(const PassSetup& setup)
     : instances_(setup.core),
       pipeline_(setup.core, {.vertex = shaderCode("lines_vert"),
                              .fragment = shaderCode("lines_frag"),
-                             .sets = {setup.frame_layout, instances_.set().layout()}}) {}
+                             .sets = {setup.frame_layout, instances_.set().layout()},
+                             .view_mask = setup.view_mask}) {}
 
 void LinePass::append(const Polyline& line, const ViewSet& views) {
   std::vector<interop::vec3> points;

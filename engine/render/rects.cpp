@@ -12,7 +12,8 @@ RectPass::RectPass(const PassSetup& setup)
     : instances_(setup.core),
       pipeline_(setup.core, {.vertex = shaderCode("rects_vert"),
                              .fragment = shaderCode("rects_frag"),
-                             .sets = {setup.frame_layout, instances_.set().layout()}}) {}
+                             .sets = {setup.frame_layout, instances_.set().layout()},
+                             .view_mask = setup.view_mask}) {}
 
 void RectPass::update(std::span<const ScreenRect> rects, int& not_drawn) {
   std::vector<interop::RectGlyph> glyphs;

@@ -10,8 +10,9 @@ Renderer::Renderer(const gpu::Core& core, int views)
                          .type = vk::DescriptorType::eUniformBuffer,
                          .stages = vk::ShaderStageFlagBits::eVertex |
                                    vk::ShaderStageFlagBits::eFragment}}),
-      setup_{.core = core, .frame_layout = frame_set_.layout()},
-      views_(views),
+      setup_{.core = core,
+             .frame_layout = frame_set_.layout(),
+             .view_mask = (1U << static_cast<unsigned>(views)) - 1U},
       background_(setup_),
       lines_(setup_),
       arrows_(setup_),
@@ -61,16 +62,20 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
       .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};  // reversed: infinitely far
   const vk::Rect2D area = {.extent = target.extent};
   commands.beginRendering({.renderArea = area,
-                           .layerCount = static_cast<std::uint32_t>(views_),
+                           .layerCount = 1,
+                           .viewMask = setup_.view_mask,
                            .colorAttachmentCount = 1,
                            .pColorAttachments = &colour,
                            .pDepthAttachment = &depth});
-  commands.setViewport(0, vk::Viewport{.width = static_cast<float>(target.extent.width),
-                                       .height = static_cast<float>(target.extent.height),
-                                       .maxDepth = 1.0F});
+  commands.setViewport(
+      0, vk::Viewport{.x = -kBorderPx,
+                      .y = -kBorderPx,
+                      .width = static_cast<float>(target.extent.width) + 2.0F * kBorderPx,
+                      .height = static_cast<float>(target.extent.height) + 2.0F * kBorderPx,
+                      .maxDepth = 1.0F});
   commands.setScissor(0, area);
 
-  const FrameContext context = {commands, frame_set_.handle(), views_, lit_, stats};
+  const FrameContext context = {commands, frame_set_.handle(), lit_, stats};
   background_.record(context);
   lines_.record(context);
   arrows_.record(context);

@@ -38,7 +38,6 @@ class Renderer {
   gpu::Buffer frame_buffer_;
   gpu::DescriptorSet frame_set_;
   PassSetup setup_;
-  int views_;
   bool lit_ = true;
 
   BackgroundPass background_;

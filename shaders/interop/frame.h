@@ -20,8 +20,8 @@ struct ViewData {
 
 struct FrameData {
   ViewData views[2];
-  float near;  // m
-  uint eyes;   // 1 or 2
+  float near;       // m
+  float border_px;  // how far the viewport reaches past the picture on each side
 };
 
 SLAMSCOPE_INTEROP_END

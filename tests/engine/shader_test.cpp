@@ -43,7 +43,7 @@ class Counter {
         v.background);
   }
   void operator()(Everything& e) {
-    all(e.frame.views[0], e.frame.views[1], e.frame.near, e.frame.eyes);
+    all(e.frame.views[0], e.frame.views[1], e.frame.near, e.frame.border_px);
     all(e.ellipsoid.centre, e.ellipsoid.axis0, e.ellipsoid.axis1, e.ellipsoid.axis2,
         e.ellipsoid.colour);
     all(e.cone.tip, e.cone.axis, e.cone.height, e.cone.radius, e.cone.colour);

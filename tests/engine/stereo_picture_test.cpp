@@ -20,7 +20,16 @@ Scene everything() {
   scene.arrows = {{{-0.3, 0, 0}, 0.5, 0.3, 0.1, {1, 1, 0, 1}}};
   scene.lines = {{{{-0.5, -0.2, 0}, {0.4, 0.3, 0}, {0.5, -0.3, 0}}, 3.0, {0, 1, 0, 1}}};
   scene.labels = {{{0.3, 0.1, 0}, {0, 12}, "42", 14, kWhite}};
-  scene.rects = {{{5, 5}, {100, 40}, {0, 0, 0, 0.5F}}};
+  // Some reach past the picture: lavapipe draws what it has to clip into the first eye's picture.
+  scene.ellipsoids.push_back(
+      {{0.9, 0, 0}, Eigen::Vector3d(0.3, 0.1, 0.1).asDiagonal(), {1, 0, 0, 0.7F}});
+  scene.ellipsoids.push_back(
+      {{-2.5, 0, 0}, Eigen::Vector3d(2.0, 0.1, 0.1).asDiagonal(), {0, 0, 1, 0.7F}});
+  scene.cones.push_back({{-0.75, 0.3, 0}, 0.3, 0.1, {0, 1, 1, 1}});
+  scene.arrows.push_back({{0.5, -0.4, 0}, -0.4, 0.9, 0.2, {1, 1, 0, 1}});
+  scene.lines.push_back({{{-9, 0.1, 0}, {9, 0.2, 0}}, 4.0, {1, 1, 1, 0.5F}});
+  scene.labels.push_back({{-0.68, -0.1, 0}, {0, 0}, "far out", 14, kWhite});
+  scene.rects = {{{5, 5}, {100, 40}, {0, 0, 0, 0.5F}}, {{300, 200}, {400, 300}, {0, 1, 0, 0.5F}}};
   scene.texts = {{{10, 10}, "legend", 14, kWhite}};
   return scene;
 }
