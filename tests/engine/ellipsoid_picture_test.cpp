@@ -146,11 +146,11 @@ Scene tangle() {
 }
 
 /// Pixels away from edges whose colour is not that of what the ray hits first.
-int wrongPixels(const Image& drawn, const reference::Picture& expected, const Scene& scene) {
+int wrongPixels(const Image& drawn, const reference::FinePicture& expected, const Scene& scene) {
   int wrong = 0;
   for (int v = 0; v < drawn.height; ++v) {
     for (int u = 0; u < drawn.width; ++u) {
-      if (reference::nearEdge(expected, u, v)) continue;
+      if (expected.nearEdge(u, v)) continue;
       const int id = expected.at(u, v).id;
       const auto ellipsoids = static_cast<int>(scene.ellipsoids.size());
       const Rgba colour = id < 0            ? Rgba{0, 0, 0, 1}
@@ -167,11 +167,11 @@ TEST_F(EllipsoidPicture, WhatIsNearestIsSeenAtEveryPixelWhereGlyphsInterpenetrat
   const View view = lookingDown();
   Scene scene = tangle();
   const Image picture = draw(view, scene);
-  EXPECT_EQ(wrongPixels(picture, reference::raycast(scene, view), scene), 0);
+  EXPECT_EQ(wrongPixels(picture, reference::FinePicture(scene, view), scene), 0);
   // Twin: one ellipsoid 5 mm farther away.
   Scene moved = scene;
   moved.ellipsoids[1].centre += 0.005 * Eigen::Vector3d(0, 0.75, -0.66);
-  EXPECT_GT(wrongPixels(picture, reference::raycast(moved, view), scene), 0);
+  EXPECT_GT(wrongPixels(picture, reference::FinePicture(moved, view), scene), 0);
 }
 
 TEST_F(EllipsoidPicture, IsTheSameForGlyphsInAnyOrder) {
@@ -251,7 +251,7 @@ TEST_F(EllipsoidPicture, DegenerateOnesAreDefined) {
   // Reaches behind the eye beside it: its outline is no ellipse; the ray caster knows.
   scene.ellipsoids = {
       {eye + Eigen::Vector3d(0.0, 0.3, -0.6), Eigen::Vector3d(0.2, 3.0, 0.2).asDiagonal(), kWhite}};
-  EXPECT_EQ(wrongPixels(draw(view, scene), reference::raycast(scene, view), scene), 0);
+  EXPECT_EQ(wrongPixels(draw(view, scene), reference::FinePicture(scene, view), scene), 0);
 }
 
 TEST_F(EllipsoidPicture, AllOfThemAreOneDrawForAllViews) {
