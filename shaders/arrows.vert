@@ -49,5 +49,5 @@ void main() {
   head01 = vec4(px[4], px[5]);
   head2 = px[6];
   colour = arrow.colour;
-  gl_Position = clipFromPixel(mix(low - 1.0, high + 1.0, 0.5 + 0.5 * stripCorner()));
+  gl_Position = boxCorner(low - 1.0, high + 1.0);
 }

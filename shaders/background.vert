@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_EXT_multiview : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "common/view.glsl"
+#include "common/quad.glsl"
 
-void main() {
-  // One triangle that covers the picture.
-  gl_Position = vec4(vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2) * 2.0 - 1.0, 0.0, 1.0);
-}
+void main() { gl_Position = boxCorner(vec2(0.0), frame.views[gl_ViewIndex].size); }

@@ -84,5 +84,5 @@ void main() {
   const vec2 reach = sqrt(max(variance, 0.0));
   const vec2 low = min(tip_px, rim_px + middle - reach) - 1.0;
   const vec2 high = max(tip_px, rim_px + middle + reach) + 1.0;
-  gl_Position = clipFromPixel(mix(low, high, 0.5 + 0.5 * stripCorner()));
+  gl_Position = boxCorner(low, high);
 }

@@ -59,7 +59,7 @@ void main() {
   colour = e.colour;
 
   if (!in_front) {
-    gl_Position = vec4(stripCorner(), 0.5, 1.0);
+    gl_Position = boxCorner(vec2(0.0), frame.views[gl_ViewIndex].size);
     return;
   }
   // The dual conic C = J Σ Jᵀ − … about the centre's pixel gives middle and shape of the outline.
@@ -75,6 +75,13 @@ void main() {
   const float variance1 = S.x * n.x * n.x + 2.0 * S.y * n.x * n.y + S.z * n.y * n.y;
   const float variance2 = S.x * n.y * n.y - 2.0 * S.y * n.x * n.y + S.z * n.x * n.x;
   const vec2 half_size = sqrt(max(vec2(variance1, variance2), 0.0)) + 1.0;
-  const vec2 corner = stripCorner() * half_size;
-  gl_Position = clipFromPixel(reference + middle + corner.x * n + corner.y * vec2(-n.y, n.x));
+  const vec2 centre = reference + middle;
+  const float reach_px = half_size.x + half_size.y;
+  if (insideBorder(centre - reach_px) && insideBorder(centre + reach_px)) {
+    const vec2 corner = stripCorner() * half_size;
+    gl_Position = clipFromPixel(centre + corner.x * n + corner.y * vec2(-n.y, n.x));
+  } else {
+    const vec2 box = sqrt(max(vec2(S.x, S.z), 0.0)) + 1.0;
+    gl_Position = boxCorner(centre - box, centre + box);
+  }
 }

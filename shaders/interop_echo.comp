@@ -38,7 +38,7 @@ void echo(ViewData v) {
 
 void main() {
   for (int i = 0; i < 2; ++i) {
-    echo(values[i].frame.views[0]), echo(values[i].frame.views[1]), echo(values[i].frame.near);
+    echo(values[i].frame.views[0]), echo(values[i].frame.views[1]), echo(values[i].frame.near), echo(values[i].frame.border_px);
     const EllipsoidGlyph e = values[i].ellipsoid;
     echo(e.centre), echo(e.axis0), echo(e.axis1), echo(e.axis2), echo(e.colour);
     const ConeGlyph c = values[i].cone;

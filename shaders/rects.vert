@@ -16,6 +16,5 @@ void main() {
   const RectGlyph rect = rects[gl_InstanceIndex];
   bounds = vec4(rect.min_px, rect.max_px);
   colour = rect.colour;
-  gl_Position = clipFromPixel(
-      mix(floor(rect.min_px), ceil(rect.max_px), 0.5 + 0.5 * stripCorner()));
+  gl_Position = boxCorner(floor(rect.min_px), ceil(rect.max_px));
 }

@@ -29,6 +29,5 @@ void main() {
   texel_from_pixel = letter.uv - (corner + letter.min_px);
   halo = float(letter.halo);
   colour = letter.colour;
-  gl_Position =
-      clipFromPixel(corner + mix(letter.min_px, letter.max_px, 0.5 + 0.5 * stripCorner()));
+  gl_Position = boxCorner(corner + letter.min_px, corner + letter.max_px);
 }

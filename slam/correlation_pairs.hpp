@@ -46,8 +46,8 @@ struct PairSelection {
 
 /// What a mode is told by others, by id; ids that are not in the map are passed over.
 struct PairChoice {
-  std::span<const FeatureId> selected;                      ///< PairMode::selected
-  std::span<const std::pair<FeatureId, FeatureId>> alarms;  ///< PairMode::alarms
+  std::span<const FeatureId> selected{};                      ///< PairMode::selected
+  std::span<const std::pair<FeatureId, FeatureId>> alarms{};  ///< PairMode::alarms
 };
 
 /// The pairs that `mode` shows. `clusters` must be of this snapshot (used by the two modes that

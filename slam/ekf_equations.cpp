@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "slam/angle.hpp"
+#include "slam/ekf_rank_update.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -23,11 +24,6 @@ Eigen::Matrix<double, Eigen::Dynamic, Count> columnsOf(const Eigen::MatrixXd& P,
       P.block<Count, Count>(column, column).template selfadjointView<Eigen::Lower>();
   columns.template middleRows<Count>(column) = corner;
   return columns;
-}
-
-/// H_i M for the sparse H_i and N rows of M.
-Eigen::MatrixXd product(const ObservationJacobian& H, const Eigen::MatrixXd& M) {
-  return H.H_v * M.topRows<3>() + H.H_f * M.middleRows<2>(H.column);
 }
 
 }  // namespace
@@ -128,12 +124,14 @@ Correction EkfEquations::correct(const EkfState& state,
   for (Eigen::Index k = 0; k < count; ++k) {
     const LinearisedObservation& o = c.observations[static_cast<std::size_t>(k)];
     c.innovation.segment<2>(2 * k) = o.innovation;
-    c.PHt.middleCols<2>(2 * k).noalias() = P_v * o.H.H_v.transpose();
-    c.PHt.middleCols<2>(2 * k).noalias() += columnsOf<2>(state.P, o.H.column) * o.H.H_f.transpose();
+    c.PHt.middleCols<2>(2 * k) = P_v.lazyProduct(o.H.H_v.transpose());
+    c.PHt.middleCols<2>(2 * k) +=
+        columnsOf<2>(state.P, o.H.column).lazyProduct(o.H.H_f.transpose());
   }
   for (Eigen::Index k = 0; k < count; ++k) {  // (8)
     const LinearisedObservation& o = c.observations[static_cast<std::size_t>(k)];
-    c.S.middleRows<2>(2 * k) = product(o.H, c.PHt);
+    c.S.middleRows<2>(2 * k) = o.H.H_v.lazyProduct(c.PHt.topRows<3>()) +
+                               o.H.H_f.lazyProduct(c.PHt.middleRows<2>(o.H.column));
     c.S.block<2, 2>(2 * k, 2 * k) += o.R;
   }
   c.S = (0.5 * (c.S + c.S.transpose())).eval();
@@ -163,7 +161,7 @@ void EkfEquations::updateMean(EkfState& state, const Correction& correction) {
 }
 
 void EkfEquations::updateCovariance(EkfState& state, const Correction& correction) {
-  state.P.selfadjointView<Eigen::Lower>().rankUpdate(correction.Y, -1.0);
+  subtractOuterProduct(state.P, correction.Y);
 }
 
 void EkfEquations::initialise(EkfState& state, const Observation& observation) {

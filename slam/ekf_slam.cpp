@@ -104,7 +104,10 @@ std::vector<FeatureId> EkfSlam::updateOnce(std::span<const Observation> observat
     if (passes(o)) accepted.push_back(o);
   }
   if (accepted.empty()) return {};
-  const Correction correction = equations_->update(state_, accepted);
+  Correction correction = equations_->update(state_, accepted);
+  if (!correction.applied && dropUndefined(accepted)) {
+    correction = equations_->update(state_, accepted);
+  }
   if (!correction.applied) {
     counters_.degenerate += accepted.size();
     return {};
@@ -121,17 +124,24 @@ std::vector<FeatureId> EkfSlam::updateOnce(std::span<const Observation> observat
 }
 
 bool EkfSlam::passes(const Observation& observation) {
-  const LinearisedObservation o = equations_->linearise(state_, observation);
-  if (!o.innovation.allFinite() || !o.H.H_v.allFinite() || !o.H.H_f.allFinite()) {
-    ++counters_.degenerate;
-    return false;
-  }
   if (!options_.gate_probability) return true;
+  const LinearisedObservation o = equations_->linearise(state_, observation);
   const Eigen::Matrix2d S = equations_->innovationCovariance(state_, o);
   const double squared_mahalanobis = o.innovation.dot(S.ldlt().solve(o.innovation));
-  if (squared_mahalanobis <= chiSquare2(*options_.gate_probability)) return true;
+  // Written so that what is not a number passes: it is no outlier, the update looks at it.
+  if (!(squared_mahalanobis > chiSquare2(*options_.gate_probability))) return true;
   ++counters_.gated_out;
   return false;
+}
+
+bool EkfSlam::dropUndefined(std::vector<Observation>& observations) {
+  const auto undefined = [this](const Observation& observation) {
+    const LinearisedObservation o = equations_->linearise(state_, observation);
+    return !o.innovation.allFinite() || !o.H.H_v.allFinite() || !o.H.H_f.allFinite();
+  };
+  const std::size_t dropped = std::erase_if(observations, undefined);
+  counters_.degenerate += dropped;
+  return dropped > 0 && !observations.empty();
 }
 
 void EkfSlam::initialise(const Observation& observation) {

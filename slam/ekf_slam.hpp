@@ -23,7 +23,7 @@ struct EkfOptions {
   UpdateMode update = UpdateMode::batch;
   /// Observations outside the χ² ellipse that holds this share of the probability (0.99, say) are
   /// left out of the update and counted. No gate where absent.
-  std::optional<double> gate_probability;
+  std::optional<double> gate_probability{};
   Eigen::Vector3d initial_pose = Eigen::Vector3d::Zero();        ///< x, y (m), θ (rad)
   Eigen::Matrix3d initial_covariance = Eigen::Matrix3d::Zero();  ///< zero: exactly known
   bool record_jacobians = false;  ///< H of each observation in snapshots of updates (2×N each)
@@ -99,6 +99,9 @@ class EkfSlam : public Subject {
  private:
   void advance(std::chrono::nanoseconds time);
   bool passes(const Observation& observation);
+  /// Takes out, and counts, readings that have no Jacobian here; whether some went and some are
+  /// left.
+  bool dropUndefined(std::vector<Observation>& observations);
   std::vector<FeatureId> updateOnce(std::span<const Observation> observations);
   [[nodiscard]] Snapshot makeSnapshot(Event event) const;
   template <typename Fill>

@@ -41,7 +41,7 @@ struct FaultOptions {
   Sensor sensor = Sensor::range_bearing;
   /// Whose covariance `paper` spoils, which ones `moved-feature` moves, by id. Empty: 2, 8 and 14,
   /// one in each cluster of the paper's map.
-  std::vector<FeatureId> features;
+  std::vector<FeatureId> features{};
   std::uint64_t seed = 1;  ///< of what `wrong-association` draws
 };
 

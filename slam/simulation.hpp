@@ -26,15 +26,15 @@ struct SimulationOptions {
   std::string fault = "none";  ///< a name of faultNames()
   /// See FaultOptions::features. Default: `paper` one feature in each third of the ids (in each
   /// cluster of the paper's map), `moved-feature` the middle one of these.
-  std::vector<FeatureId> fault_features;
+  std::vector<FeatureId> fault_features{};
   /// σ of the start pose: x, y (m), θ (rad). Where not zero the estimate starts off by a draw.
   Eigen::Vector3d initial_sigma = Eigen::Vector3d::Zero();
   UpdateMode update = UpdateMode::batch;
-  std::optional<double> gate_probability;
+  std::optional<double> gate_probability{};
   Sensor sensor = Sensor::range_bearing;
   /// σ of a reading: range (m) and bearing (rad), or x and y (m) for Sensor::relative_position.
   /// Default: 0.06 m and 0.04 rad, or 0.05 m twice.
-  std::optional<Eigen::Vector2d> sensor_sigma;
+  std::optional<Eigen::Vector2d> sensor_sigma{};
   MotionInput motion = MotionInput::velocity;
   /// σ of forward (m/s) and turn (rad/s); none at rest. Of an increment: these times the time step,
   /// the first of them sideways too.

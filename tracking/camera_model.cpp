@@ -146,7 +146,7 @@ std::optional<Vector2d> CameraModel::project(const Vector3d& p, PixelJacobian* J
   PixelJacobian J_d_p;
   if (info_.model == DistortionModel::equidistant) {
     const double rho = std::hypot(p.x(), p.y());
-    if (!(std::atan2(rho, p.z()) < max_angle_)) return std::nullopt;
+    if (!(std::atan2(rho, p.z()) < max_angle_) || p.isZero(0)) return std::nullopt;
     const FisheyeFactor g = fisheyeFactor(D_, rho, p.z());
     d = g.value * p.head<2>();
     if (J_uv_p) {

@@ -41,9 +41,9 @@ struct RegistrationOptions {
   int frames = 30;  ///< averaged before start
   /// Absent: the map starts at the origin of `layout`'s world (or of T_camera_world's).
   std::optional<RobotTag> robot = RobotTag{};
-  std::optional<CameraPose>
-      camera_pose;   ///< measured beforehand; with `layout` too, a prior for it
-  TagLayout layout;  ///< tags of the floor, room or board; may be empty
+  std::optional<CameraPose> camera_pose =
+      std::nullopt;       ///< measured beforehand; with `layout` too, a prior for it
+  TagLayout layout = {};  ///< tags of the floor, room or board; may be empty
   /// What averaging can't remove: bias of a corner, the same in each frame, px per axis.
   double corner_bias_px = 0.01;
   /// Side of the square about the map's origin for which errors are stated, m.

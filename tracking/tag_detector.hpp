@@ -44,12 +44,12 @@ struct TagDetectorOptions {
   int threads = 1;
   /// Search for quads in a picture this much smaller. Not given: 2 from 1280 px width on, else 1
   /// (corners are refined in the full picture either way).
-  std::optional<double> quad_decimate;
+  std::optional<double> quad_decimate = std::nullopt;
   bool refine = true;
   int max_hamming = 1;     ///< of corrected bits: more let clutter through
   double min_margin = 20;  ///< grey levels
   /// Sides of a tag bow under lens distortion: with the camera known, refinement allows for it.
-  std::optional<CameraModel> camera;
+  std::optional<CameraModel> camera = std::nullopt;
 };
 
 /// Finds tags. One detector for one thread at a time.

@@ -13,13 +13,16 @@ namespace {
 
 using Eigen::Isometry3d, Eigen::Vector2d, Eigen::Vector3d;
 
-constexpr std::size_t kRefined = 6;     // of the candidates
-constexpr double kMostError_px = 20;    // an outlier weighs no more when candidates are compared
+constexpr std::size_t kRefined = 6;   // of the candidates
+constexpr double kMostError_px = 20;  // an outlier weighs no more when candidates are compared
+constexpr double kDoubtful = 0.5;     // misfit: errors of 0.4 px
+constexpr std::size_t kMostLeftOut = 12;
+constexpr double kDecisiveChi2 = 20;    // odds of 20,000 to 1
 constexpr double kSameRotation = 0.01;  // rad; nearer than that two fits are one
 
 struct Candidate {
   Isometry3d T_camera_world;
-  double error = 0;
+  double misfit = 0;
 };
 
 /// Points for OpenCV: object in metres, image in the plane z = 1 (lens and K taken off).
@@ -73,13 +76,14 @@ std::vector<CornerSight> cornersOf(const std::vector<Seen>& seen) {
   return corners;
 }
 
-/// Both planar poses of each tag, those of all corners together, and the prior; best first.
+/// Both planar poses of each tag, those of all corners together, the prior, and where these leave
+/// doubt those of all tags but one; best first.
 std::vector<Candidate> candidates(const CameraModel& camera, const std::vector<Seen>& seen,
                                   const std::vector<CornerSight>& corners,
                                   const std::optional<Isometry3d>& prior) {
   std::vector<Candidate> list;
   const auto add = [&](const Isometry3d& T) {
-    list.push_back({T, sceneError(camera, corners, {T, Isometry3d::Identity()}, kMostError_px)});
+    list.push_back({T, sceneMisfit(camera, corners, {T, Isometry3d::Identity()})});
   };
   for (const auto& [tag, detection] : seen) {
     // IPPE_SQUARE wants the corners clockwise from the upper left.
@@ -91,16 +95,24 @@ std::vector<Candidate> candidates(const CameraModel& camera, const std::vector<S
       add(T_camera_tag * tag->T_world_tag.inverse());
     }
   }
-  if (seen.size() > 1) {
+  const auto addJoint = [&](int without) {
     Points points;
-    for (const CornerSight& corner : corners) points.add(camera, corner.p, corner.px);
-    if (points.object.size() >= 4) {
-      for (const Isometry3d& T : solvePnP(points, cv::SOLVEPNP_SQPNP)) add(T);
+    for (const CornerSight& corner : corners) {
+      if (corner.tag != without) points.add(camera, corner.p, corner.px);
     }
-  }
+    if (points.object.size() < 8) return;
+    for (const Isometry3d& T : solvePnP(points, cv::SOLVEPNP_SQPNP)) add(T);
+  };
+  constexpr int kNone = -1;
+  addJoint(kNone);
   if (prior) add(*prior);
-  std::sort(list.begin(), list.end(),
-            [](const Candidate& a, const Candidate& b) { return a.error < b.error; });
+  const auto better = [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; };
+  const bool doubtful =
+      list.empty() || std::min_element(list.begin(), list.end(), better)->misfit > kDoubtful;
+  if (doubtful && seen.size() > 2 && seen.size() <= kMostLeftOut) {
+    for (const Seen& one : seen) addJoint(one.tag->id);  // if it is one tag that is wrong
+  }
+  std::sort(list.begin(), list.end(), better);
   return list;
 }
 
@@ -110,7 +122,7 @@ double angleBetween(const Isometry3d& a, const Isometry3d& b) {
 
 struct Refined {
   SceneFit fit;
-  double error;  // truncated, over all corners
+  double misfit;
 };
 
 /// Distinct poses that the data come to rest at, best first.
@@ -131,10 +143,10 @@ std::vector<Refined> refine(const CameraModel& camera, const SceneProblem& probl
       return angleBetween(other.fit.pose.T_camera_world, fit->pose.T_camera_world) < kSameRotation;
     };
     if (std::any_of(found.begin(), found.end(), same)) continue;
-    found.push_back({*fit, sceneError(camera, problem.corners, fit->pose, kMostError_px)});
+    found.push_back({*fit, sceneMisfit(camera, problem.corners, fit->pose)});
   }
   std::sort(found.begin(), found.end(),
-            [](const Refined& a, const Refined& b) { return a.error < b.error; });
+            [](const Refined& a, const Refined& b) { return a.misfit < b.misfit; });
   return found;
 }
 
@@ -148,9 +160,30 @@ std::vector<int> rejectedIds(const std::vector<CornerSight>& corners, const Scen
   return ids;
 }
 
-/// Two poses are told apart by their likelihoods, (error ratio) to the power of the corners.
-bool undecided(double error_ratio, int corners, double max_ratio_of_one_tag) {
-  return std::pow(error_ratio, corners / 4.0) > max_ratio_of_one_tag;
+/// How the best pose compares to another one, over the corners that fit the best.
+struct Comparison {
+  double error_ratio;  // of root mean squares
+  bool undecided;
+};
+
+Comparison compare(const CameraModel& camera, const std::vector<CornerSight>& corners,
+                   const SceneFit& best, const SceneFit& other, double max_ratio_of_one_tag) {
+  const auto first = sceneDistances(camera, corners, best.pose);
+  const auto second = sceneDistances(camera, corners, other.pose);
+  double chi2_first = 0, chi2_second = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!best.used[i]) continue;
+    chi2_first += first[i] * first[i];
+    chi2_second += second[i] * second[i];
+  }
+  Comparison result;
+  result.error_ratio = std::sqrt(chi2_first / std::max(chi2_second, 1e-12));
+  // A small ratio may be chance: with six unknowns, eight coordinates leave little error to any
+  // pose. So the poses must differ by what noise won't do as well.
+  const double noise = std::max(1.0, chi2_first / std::max(1, 2 * best.used_count - 6));
+  result.undecided = std::pow(result.error_ratio, best.used_count / 4.0) > max_ratio_of_one_tag ||
+                     (chi2_second - chi2_first) / noise < kDecisiveChi2;
+  return result;
 }
 
 }  // namespace
@@ -166,14 +199,17 @@ std::optional<TagPose> estimateTagPose(const CameraModel& camera, const TagLayou
   SceneProblem problem;
   problem.corners = cornersOf(seen);
   problem.gate_sigmas = options.gate_sigmas;
+  problem.robust = seen.size() > 1;
   const auto& prior = options.prior_T_camera_world;
   auto found = refine(camera, problem, candidates(camera, seen, problem.corners, prior));
   if (found.empty()) return std::nullopt;
 
   TagPose pose;
   if (found.size() > 1) {
-    pose.error_ratio = found[0].error / std::max(found[1].error, 1e-12);
-    pose.ambiguous = undecided(pose.error_ratio, found[0].fit.used_count, options.max_error_ratio);
+    const Comparison comparison =
+        compare(camera, problem.corners, found[0].fit, found[1].fit, options.max_error_ratio);
+    pose.error_ratio = comparison.error_ratio;
+    pose.ambiguous = comparison.undecided;
     if (pose.ambiguous && prior) {
       const double first = angleBetween(found[0].fit.pose.T_camera_world, *prior);
       const double second = angleBetween(found[1].fit.pose.T_camera_world, *prior);

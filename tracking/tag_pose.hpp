@@ -18,7 +18,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 struct TagPoseOptions {
   /// Where the camera is believed to be (the frame before, a sensor). Decides between the two poses
   /// that fit a single tag, and is one more start; it does not pull the result.
-  std::optional<Eigen::Isometry3d> prior_T_camera_world;
+  std::optional<Eigen::Isometry3d> prior_T_camera_world = std::nullopt;
   /// A corner further off than this many sigma (and a pixel) is an outlier; its tag is named when
   /// at least two of its corners are.
   double gate_sigmas = 6;

@@ -14,7 +14,10 @@ using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix29d = Eigen::Matrix<double, 2, 9>;
 
 constexpr int kIterations = 40;
-constexpr double kFullWeight = 4;  // sigmas
+constexpr int kRounds = 4;
+constexpr double kRoughly = 1e-3, kExactly = 1e-10;  // change of cost at rest
+constexpr double kFullWeight = 4;                    // sigmas
+constexpr double kNoLimit = 1e9;                     // scale of errors at which none is an outlier
 /// Whatever the sigmas say, a corner is no outlier below it.
 constexpr double kLeastOutlier_px = 0.5;
 
@@ -61,10 +64,13 @@ struct Linearised {
   bool valid = true;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// Of the smaller third of the distances: up to nearly two thirds of the corners may be wrong.
+constexpr double kScaleQuantile = 0.35;
+
+double quantile(std::vector<double> values, double part) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * double(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 class Solver {
@@ -76,21 +82,12 @@ class Solver {
     if (problem.solve_map) free_.tail<3>().setOnes();
   }
 
-  /// Distances over sigma, of the corners in use; an infinite one for a corner out of view.
-  [[nodiscard]] std::vector<double> distances(const ScenePose& pose, bool all) const {
-    std::vector<double> result;
-    for (std::size_t i = 0; i < used_.size(); ++i) {
-      if (!all && !used_[i]) continue;
-      const auto px = predict(camera_, problem_.corners[i], pose);
-      result.push_back(px ? (problem_.corners[i].px - *px).norm() / problem_.corners[i].sigma_px
-                          : std::numeric_limits<double>::infinity());
-    }
-    return result;
-  }
-
-  /// How much larger the errors are than the sigmas say; 1.18 is the median of a 2D unit Gaussian.
+  /// How much larger the errors are than the sigmas say, by the same quantile of a 2D unit
+  /// Gaussian.
   [[nodiscard]] double scale(const ScenePose& pose) const {
-    return std::max(1.0, median(distances(pose, false)) / 1.18);
+    static const double unit = std::sqrt(-2 * std::log(1 - kScaleQuantile));
+    return std::max(
+        1.0, quantile(sceneDistances(camera_, problem_.corners, pose), kScaleQuantile) / unit);
   }
 
   [[nodiscard]] Linearised linearise(const ScenePose& pose, double scale) const {
@@ -122,7 +119,8 @@ class Solver {
   }
 
   /// Levenberg's method from `pose`; nothing where it can't start.
-  [[nodiscard]] std::optional<ScenePose> descend(ScenePose pose, double scale) const {
+  [[nodiscard]] std::optional<ScenePose> descend(ScenePose pose, double scale,
+                                                 double tolerance) const {
     double damping = 1e-6;
     Linearised at = linearise(pose, scale);
     if (!at.valid) return std::nullopt;
@@ -134,7 +132,7 @@ class Solver {
       const ScenePose candidate = moved(pose, step);
       const Linearised next = linearise(candidate, scale);
       if (next.valid && next.cost <= at.cost) {
-        const bool at_rest = at.cost - next.cost < 1e-10 * (1 + at.cost);
+        const bool at_rest = at.cost - next.cost < tolerance * (1 + at.cost);
         pose = candidate;
         at = next;
         damping = std::max(1e-9, damping * 0.1);
@@ -148,28 +146,42 @@ class Solver {
 
   [[nodiscard]] std::optional<SceneFit> solve(ScenePose pose) {
     if (used_.empty()) return std::nullopt;
-    for (int round = 0; round < 3; ++round) {
-      const auto better = descend(pose, scale(pose));
+    // Ever narrower, so that outliers which share in a first compromise lose their hold on it.
+    double s = problem_.robust ? scale(pose) : kNoLimit;
+    for (int round = 0; problem_.robust && round < kRounds; ++round) {
+      const auto better = descend(pose, s, kRoughly);
       if (!better) return std::nullopt;
       pose = *better;
+      const double narrower = std::max(1.0, std::min(s / 3, scale(pose)));
+      if (narrower == s) break;
+      s = narrower;
     }
-    const double s = scale(pose);
-    const auto all = distances(pose, true);
+    s = problem_.robust ? scale(pose) : kNoLimit;
+    const auto all = sceneDistances(camera_, problem_.corners, pose);
     for (std::size_t i = 0; i < used_.size(); ++i) {
       used_[i] = all[i] < problem_.gate_sigmas * s ||
                  all[i] * problem_.corners[i].sigma_px < kLeastOutlier_px;
     }
     const auto count = std::count(used_.begin(), used_.end(), true);
-    if (2 * count < static_cast<long>(free_.sum())) return std::nullopt;
+    if (freedom(static_cast<int>(count)) < 0) return std::nullopt;
     // Without the outliers, all weights are one.
-    const auto last = descend(pose, 1e6);
+    const auto last = descend(pose, kNoLimit, kExactly);
     if (!last) return std::nullopt;
     return report(*last, static_cast<int>(count));
   }
 
  private:
+  [[nodiscard]] bool prior() const {
+    return problem_.prior_T_camera_world && problem_.solve_camera;
+  }
+
+  /// What is measured beyond what is sought.
+  [[nodiscard]] int freedom(int corners) const {
+    return 2 * corners + (prior() ? 6 : 0) - static_cast<int>(free_.sum());
+  }
+
   void addPrior(const ScenePose& pose, Linearised& result) const {
-    if (!problem_.prior_T_camera_world || !problem_.solve_camera) return;
+    if (!prior()) return;
     const Isometry3d off = problem_.prior_T_camera_world->inverse() * pose.T_camera_world;
     const Eigen::AngleAxisd turn(off.linear());
     Eigen::Matrix<double, 6, 1> d;
@@ -194,10 +206,10 @@ class Solver {
       chi2 += distance2 / (corner.sigma_px * corner.sigma_px);
     }
     fit.residual_px = std::sqrt(px2 / count);
-    const double dof = std::max(1.0, 2.0 * count - free_.sum());
+    const double dof = std::max(1, freedom(count));
     const double excess = chi2 / dof > 1 + 3 * std::sqrt(2 / dof) ? chi2 / dof : 1;
     fit.covariance =
-        excess * (free_ * free_.transpose()).cwiseProduct(linearise(pose, 1e6).H.inverse());
+        excess * (free_ * free_.transpose()).cwiseProduct(linearise(pose, kNoLimit).H.inverse());
     return fit;
   }
 
@@ -214,15 +226,27 @@ std::optional<SceneFit> fitScene(const CameraModel& camera, const SceneProblem& 
   return Solver(camera, problem).solve(start);
 }
 
-double sceneError(const CameraModel& camera, const std::vector<CornerSight>& corners,
-                  const ScenePose& pose, double most_px) {
+double sceneMisfit(const CameraModel& camera, const std::vector<CornerSight>& corners,
+                   const ScenePose& pose) {
+  constexpr double kUnit_px = 0.5, kOutOfView_px = 1e3;
   double sum = 0;
   for (const CornerSight& corner : corners) {
     const auto px = predict(camera, corner, pose);
-    const double distance = px ? std::min(most_px, (corner.px - *px).norm()) : most_px;
-    sum += distance * distance;
+    const double distance = px ? (corner.px - *px).norm() : kOutOfView_px;
+    sum += std::log1p(std::pow(distance / kUnit_px, 2));
   }
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, corners.size())));
+  return sum / static_cast<double>(std::max<std::size_t>(1, corners.size()));
+}
+
+std::vector<double> sceneDistances(const CameraModel& camera,
+                                   const std::vector<CornerSight>& corners, const ScenePose& pose) {
+  std::vector<double> result;
+  for (const CornerSight& corner : corners) {
+    const auto px = predict(camera, corner, pose);
+    result.push_back(px ? (corner.px - *px).norm() / corner.sigma_px
+                        : std::numeric_limits<double>::infinity());
+  }
+  return result;
 }
 
 Eigen::Matrix3d skew(const Vector3d& v) {

@@ -37,6 +37,7 @@ struct SceneProblem {
   std::optional<Eigen::Isometry3d> prior_T_camera_world;
   Matrix6d prior_information = Matrix6d::Zero();
   double gate_sigmas = 6;
+  bool robust = true;  ///< false: every corner counts fully (one tag alone can't spare any)
 };
 
 struct SceneFit {
@@ -56,9 +57,16 @@ struct SceneFit {
 [[nodiscard]] std::optional<SceneFit> fitScene(const CameraModel& camera,
                                                const SceneProblem& problem, const ScenePose& start);
 
-/// Root mean square over all corners of the distance to the projection, each at most `most_px`.
-[[nodiscard]] double sceneError(const CameraModel& camera, const std::vector<CornerSight>& corners,
-                                const ScenePose& pose, double most_px);
+/// How badly a pose fits, outliers or not: mean over all corners of log(1 + (distance / 0.5 px)²).
+/// Compares poses that outliers have pulled to different degrees; a sum of squares would prefer the
+/// one that was pulled most.
+[[nodiscard]] double sceneMisfit(const CameraModel& camera, const std::vector<CornerSight>& corners,
+                                 const ScenePose& pose);
+
+/// Distances of corners to their projections, over sigma (infinite where out of view).
+[[nodiscard]] std::vector<double> sceneDistances(const CameraModel& camera,
+                                                 const std::vector<CornerSight>& corners,
+                                                 const ScenePose& pose);
 
 /// [v]× with [v]× w = v × w.
 [[nodiscard]] Eigen::Matrix3d skew(const Eigen::Vector3d& v);

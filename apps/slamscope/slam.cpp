@@ -34,7 +34,7 @@ struct SlamFlags {
   std::vector<double> sensor_sigma = list(slam::RecordingRunOptions{}.sensor_sigma);
   std::vector<double> odometry_sigma = list(slam::RecordingRunOptions{}.odometry_sigma);
   std::vector<double> initial_sigma = list(slam::RecordingRunOptions{}.initial_sigma);
-  double gate = 0.0;  ///< probability; 0: no gate
+  double gate = slam::RecordingRunOptions{}.gate_probability.value_or(0.0);  ///< 0: no gate
   std::string record = "steps";
   std::string output;
   bool score = false;
@@ -89,6 +89,7 @@ slam::RecordingRunOptions runOptions(const SlamFlags& flags) {
   options.odometry_sigma = three(flags.odometry_sigma);
   options.initial_sigma = three(flags.initial_sigma);
   if (flags.update == "sequential") options.update = slam::UpdateMode::sequential;
+  options.gate_probability.reset();
   if (flags.gate > 0.0) options.gate_probability = flags.gate;
   return options;
 }
@@ -178,7 +179,7 @@ void addSlam(CLI::App& program) {
       ->delimiter(',')
       ->expected(3);
   verb->add_option("--gate", flags->gate, "probability of the gate; 0: none")
-      ->check(CLI::Range(0.0, 0.999999));
+      ->check(CLI::Range(0.0, 0.9999999));
   verb->add_option("--update", flags->update, "all observations of a step at once, or one by one")
       ->check(CLI::IsMember({"batch", "sequential"}));
   verb->add_option("--record", flags->record,

@@ -21,12 +21,13 @@ struct Need {
   vk::Bool32* flag;
 };
 
-std::array<Need, 4> needs(FeatureChain& chain) {
+std::array<Need, 5> needs(FeatureChain& chain) {
   return {
       {{"multiview", &chain.get<vk::PhysicalDeviceVulkan11Features>().multiview},
        {"scalarBlockLayout", &chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout},
        {"dynamicRendering", &chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering},
-       {"synchronization2", &chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2}}};
+       {"synchronization2", &chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2},
+       {"maintenance4", &chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4}}};
 }
 
 std::string missing(const vk::raii::PhysicalDevice& physical, std::uint32_t api_version) {

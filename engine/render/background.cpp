@@ -80,7 +80,7 @@ void BackgroundPass::recordUpload(const vk::raii::CommandBuffer& commands) {
 }
 
 void BackgroundPass::record(const FrameContext& context) const {
-  context.draw("background", pipeline_, set_.handle(), 3, any_picture_ ? 1 : 0);
+  context.draw("background", pipeline_, set_.handle(), 4, any_picture_ ? 1 : 0);
 }
 
 }  // namespace slamscope::engine

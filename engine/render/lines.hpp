@@ -11,9 +11,9 @@
 
 namespace slamscope::engine {
 
-/// Polylines of constant width on the picture, anti-aliased, round at ends and joints. They lie
-/// behind all glyphs: drawn first, without depth. Points that show less than half a pixel from the
-/// last one drawn (in every view) are left out, so that long paths stay cheap.
+/// Polylines of constant width on the picture (at most 100 px), anti-aliased, round at ends and
+/// joints. They lie behind all glyphs: drawn first, without depth. Points that show less than half
+/// a pixel from the last one drawn (in every view) are left out, so that long paths stay cheap.
 class LinePass {
  public:
   explicit LinePass(const PassSetup& setup);

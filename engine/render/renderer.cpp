@@ -67,9 +67,12 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
                            .colorAttachmentCount = 1,
                            .pColorAttachments = &colour,
                            .pDepthAttachment = &depth});
-  commands.setViewport(0, vk::Viewport{.width = static_cast<float>(target.extent.width),
-                                       .height = static_cast<float>(target.extent.height),
-                                       .maxDepth = 1.0F});
+  commands.setViewport(
+      0, vk::Viewport{.x = -kBorderPx,
+                      .y = -kBorderPx,
+                      .width = static_cast<float>(target.extent.width) + 2.0F * kBorderPx,
+                      .height = static_cast<float>(target.extent.height) + 2.0F * kBorderPx,
+                      .maxDepth = 1.0F});
   commands.setScissor(0, area);
 
   const FrameContext context = {commands, frame_set_.handle(), lit_, stats};

@@ -71,6 +71,7 @@ ViewSet::ViewSet(std::span<const View> views, int width, int height, const Rende
   data_.views[0].R_eye_shared = toMat3(Eigen::Matrix3d::Identity());
   data_.views[0].t_eye_shared = {};
   data_.near = static_cast<float>(options.near_m);
+  data_.border_px = kBorderPx;
 }
 
 interop::vec3 ViewSet::point(const Eigen::Vector3d& p_scene) const {

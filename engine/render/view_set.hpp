@@ -11,6 +11,9 @@
 
 namespace slamscope::engine {
 
+/// How far the viewport reaches past the picture on each side (see shaders/common/quad.glsl).
+constexpr float kBorderPx = 256.0F;
+
 /// The eyes of one frame, and the "shared" coordinates that glyphs are uploaded in: those of the
 /// first eye, computed in double, so that float is only ever asked for what is relative to the
 /// viewer and moving world and camera together changes nothing.

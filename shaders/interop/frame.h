@@ -20,7 +20,8 @@ struct ViewData {
 
 struct FrameData {
   ViewData views[2];
-  float near;  // m
+  float near;       // m
+  float border_px;  // how far the viewport reaches past the picture on each side
 };
 
 SLAMSCOPE_INTEROP_END

@@ -78,7 +78,7 @@ class LiveFilter(program.InAFolder):
         return [f for f in self.load(report)["frames"] if f["drawn"]["features"] > 0]
 
     def test_standard_input(self):
-        feeder = self.filter("--rate", 30, "--steps", 120, stdout=subprocess.PIPE)
+        feeder = self.filter("--rate", 30, "--steps", 300, stdout=subprocess.PIPE)
         done = subprocess.run([program.PROGRAM, "monitor", "--slam", "-", "--report", "r.json"],
                               stdin=feeder.stdout, cwd=self.folder, capture_output=True, text=True,
                               timeout=120, env=NO_DISPLAY)
@@ -89,12 +89,12 @@ class LiveFilter(program.InAFolder):
     def test_tcp_filter_killed_and_restarted_and_a_viewer_that_joins_late(self):
         port = free_port()
         viewer = self.monitor("--slam", f"tcp://127.0.0.1:{port}", "--report", "r.json",
-                              "--frames", 330)
+                              "--frames", 480)
         feeder = None
         for start in range(2):
             # The filter runs before the viewer listens: it tries until somebody does.
             feeder = self.filter("--rate", 30, "--steps", 100000, "--tcp", f"127.0.0.1:{port}")
-            time.sleep(5.0)
+            time.sleep(9.0)
             if start == 0:
                 feeder.kill()
                 feeder.wait()

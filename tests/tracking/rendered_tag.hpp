@@ -86,16 +86,17 @@ inline Picture render(const PrintedTag& tag, const Rendering& r) {
   const auto place = [&](int part) { return (part + 0.5) / kParts - 0.5 - pad; };
   std::vector<float> fine(std::size_t(columns) * rows);
   for (int y = 0; y < rows; ++y) {
+    Eigen::Vector2d left = r.tag_of_pixel({place(-1), place(y)});
     for (int x = 0; x < columns; ++x) {
-      const Eigen::Vector2d p(place(x), place(y));
-      const Eigen::Vector2d q = r.tag_of_pixel(p);
-      const Eigen::Vector2d right =
-          (r.tag_of_pixel(p + Eigen::Vector2d(1e-3, 0)) - q) * 1e3 / kParts;
-      const Eigen::Vector2d down =
-          (r.tag_of_pixel(p + Eigen::Vector2d(0, 1e-3)) - q) * 1e3 / kParts;
-      fine[std::size_t(y) * columns + x] =
-          float(tag.mean(q.x(), q.y(), std::hypot(right.x(), down.x()),
-                         std::hypot(right.y(), down.y()), r.around));
+      const Eigen::Vector2d q = r.tag_of_pixel({place(x), place(y)});
+      const Eigen::Vector2d right = q - left;
+      left = q;
+      float& value = fine[std::size_t(y) * columns + x];
+      value = float(r.around);
+      if (q.cwiseAbs().maxCoeff() > 1.4) continue;  // beyond the paper
+      const Eigen::Vector2d down = r.tag_of_pixel({place(x), place(y + 1)}) - q;
+      value = float(tag.mean(q.x(), q.y(), std::hypot(right.x(), down.x()),
+                             std::hypot(right.y(), down.y()), r.around));
     }
   }
   // One kernel for the pixel's box and the blur.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <stdexcept>
 
 #include "apps/lib/view/legend.hpp"
@@ -94,6 +95,7 @@ CameraSetup openLab(const MonitorOptions& options, const std::optional<RunTruth>
     lab.T_world_map = Eigen::AngleAxisd(kLabMapTurn, Eigen::Vector3d::UnitZ());
   }
   setup.info = lab.camera;
+  setup.fps = lab.fps;
   setup.source = std::make_unique<tracking::Lab>(lab);
 
   tracking::TagLayout& layout = setup.registration.layout;
@@ -115,18 +117,31 @@ tracking::CameraInfo guessedInfo(int width, int height) {
   return info;
 }
 
-/// Hands the first frame out again: its size had to be known before anything else.
+/// Hands its first two frames out again: their size and their distance in time had to be known
+/// before anything else.
 class PeekedSource : public tracking::FrameSource {
  public:
   explicit PeekedSource(std::unique_ptr<tracking::FrameSource> source)
-      : source_(std::move(source)), first_(source_->next()) {}
-  [[nodiscard]] const std::optional<tracking::Frame>& first() const { return first_; }
-  std::optional<tracking::Frame> next() override {
-    if (!handed_out_) {
-      handed_out_ = true;
-      return std::move(first_);
+      : source_(std::move(source)) {
+    while (ahead_.size() < 2) {
+      auto frame = source_->next();
+      if (!frame) break;
+      ahead_.push_back(std::move(*frame));
     }
-    return source_->next();
+  }
+  [[nodiscard]] const tracking::Frame* first() const {
+    return ahead_.empty() ? nullptr : &ahead_.front();
+  }
+  /// 0 where there is only one frame.
+  [[nodiscard]] double framesPerSecond() const {
+    if (ahead_.size() < 2) return 0.0;
+    return 1.0 / std::chrono::duration<double>(ahead_[1].time - ahead_[0].time).count();
+  }
+  std::optional<tracking::Frame> next() override {
+    if (ahead_.empty()) return source_->next();
+    std::optional<tracking::Frame> frame(std::move(ahead_.front()));
+    ahead_.pop_front();
+    return frame;
   }
   [[nodiscard]] bool live() const override { return source_->live(); }
   [[nodiscard]] bool stamped() const override { return source_->stamped(); }
@@ -134,16 +149,15 @@ class PeekedSource : public tracking::FrameSource {
 
  private:
   std::unique_ptr<tracking::FrameSource> source_;
-  std::optional<tracking::Frame> first_;
-  bool handed_out_ = false;
+  std::deque<tracking::Frame> ahead_;
 };
 
 CameraSetup openRealCamera(const MonitorOptions& options) {
   CameraSetup setup;
   auto source = std::make_unique<PeekedSource>(
       tracking::openFrameSource(options.camera, {.fps = options.fps, .v4l2 = options.v4l2}));
-  const auto& first = source->first();
-  if (!first) throw std::runtime_error(options.camera + ": no frame in it");
+  const tracking::Frame* first = source->first();
+  if (first == nullptr) throw std::runtime_error(options.camera + ": no frame in it");
   if (options.camera_info.empty()) {
     setup.info = guessedInfo(first->width, first->height);
     setup.calibrated = false;
@@ -159,6 +173,7 @@ CameraSetup openRealCamera(const MonitorOptions& options) {
                                std::to_string(first->height));
     }
   }
+  if (source->framesPerSecond() > 0.0) setup.fps = source->framesPerSecond();
   setup.source = std::move(source);
   setup.map_scale = options.map_scale.value_or(1.0);
   return setup;

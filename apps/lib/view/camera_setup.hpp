@@ -20,6 +20,7 @@ struct CameraSetup {
   tracking::CameraInfo info;
   bool calibrated = true;  ///< false: `info` is a guess
   tracking::RegistrationOptions registration;
+  double fps = 30.0;  ///< of the first frames: what a film of them is played at
   double map_scale = 1.0;
   /// Of a lab: its options (the truth of the picture), and where its frames' time starts.
   std::optional<tracking::LabOptions> lab;

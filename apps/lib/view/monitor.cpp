@@ -147,10 +147,7 @@ Monitor::State::State(const MonitorOptions& request)
              .legend = request.legend,
              .opacity = request.opacity,
              .message = {}};
-  if (!request.output.empty()) {
-    const double fps = request.fps > 0.0 ? request.fps : 30.0;
-    output = openPictureOutput(request.output, fps);
-  }
+  if (!request.output.empty()) output = openPictureOutput(request.output, setup.fps);
   if (!request.lab_truth.empty()) {
     if (!setup.lab) throw std::runtime_error("--lab-truth: only the lab knows its truth");
     tracking::writeLabTruth(*setup.lab, request.lab_truth);

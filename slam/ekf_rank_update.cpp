@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "slam/ekf_rank_update.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace slamscope::slam {
+namespace {
+
+constexpr std::ptrdiff_t kRows = 8;  // of a tile; Y is packed in panels of so many rows
+constexpr std::ptrdiff_t kCols = 4;  // of a tile: its 32 sums stay in registers
+
+/// Four doubles, wherever they lie.
+using Vector4 [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+
+[[gnu::always_inline]] inline void take(double* out, const Vector4& low, const Vector4& high) {
+  *reinterpret_cast<Vector4*>(out) -= low;
+  *reinterpret_cast<Vector4*>(out + 4) -= high;
+}
+
+/// `panels`: Y in panels of eight rows, each panel k by k, the last one filled up with zeros.
+// Sanitizers run before the resolvers of multi-versioned functions may.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+[[gnu::target_clones("fma", "default")]]
+#endif
+void subtractPanels(double* P, std::ptrdiff_t size, const double* panels, std::ptrdiff_t m) {
+  for (std::ptrdiff_t col = 0; col < size; col += kCols) {
+    const double* const right = panels + col / kRows * kRows * m + col % kRows;
+    for (std::ptrdiff_t row = col / kRows * kRows; row < size; row += kRows) {
+      const double* const left = panels + row * m;
+      // Named one by one: an array of them would live in memory.
+      Vector4 low0{}, low1{}, low2{}, low3{}, high0{}, high1{}, high2{}, high3{};
+      for (std::ptrdiff_t k = 0; k < m; ++k) {
+        const Vector4 low = *reinterpret_cast<const Vector4*>(left + k * kRows);
+        const Vector4 high = *reinterpret_cast<const Vector4*>(left + k * kRows + 4);
+        const double* const y = right + k * kRows;
+        low0 += low * y[0], high0 += high * y[0];
+        low1 += low * y[1], high1 += high * y[1];
+        low2 += low * y[2], high2 += high * y[2];
+        low3 += low * y[3], high3 += high * y[3];
+      }
+      double* const out = P + col * size + row;
+      if (row >= col + kCols && row + kRows <= size && col + kCols <= size) {
+        take(out, low0, high0);
+        take(out + size, low1, high1);
+        take(out + 2 * size, low2, high2);
+        take(out + 3 * size, low3, high3);
+        continue;
+      }
+      const Vector4 sums[kCols][2] = {{low0, high0}, {low1, high1}, {low2, high2}, {low3, high3}};
+      for (std::ptrdiff_t c = 0; c < std::min(kCols, size - col); ++c) {
+        for (std::ptrdiff_t r = std::max<std::ptrdiff_t>(0, col + c - row);
+             r < std::min(kRows, size - row); ++r) {  // at the diagonal or the lower edge
+          out[c * size + r] -= sums[c][r / 4][r % 4];
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void subtractOuterProduct(Eigen::MatrixXd& P, const Eigen::MatrixXd& Y) {
+  const std::ptrdiff_t size = Y.rows();
+  const std::ptrdiff_t m = Y.cols();
+  std::vector<double> panels(static_cast<std::size_t>((size + kRows - 1) / kRows * kRows * m));
+  for (std::ptrdiff_t k = 0; k < m; ++k) {
+    for (std::ptrdiff_t row = 0; row < size; ++row) {
+      panels[static_cast<std::size_t>((row / kRows * m + k) * kRows + row % kRows)] = Y(row, k);
+    }
+  }
+  subtractPanels(P.data(), size, panels.data(), m);
+}
+
+}  // namespace slamscope::slam

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "slam/ekf_rank_update.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "slam/simulation_random.hpp"
+
+namespace slamscope::slam {
+namespace {
+
+TEST(RankUpdate, IsTheOuterProductInTheLowerTriangleAndNothingElse) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  RandomSource random(6);
+  for (const int size : {1, 3, 7, 8, 9, 15, 16, 17, 33, 64, 203}) {
+    for (const int m : {1, 2, 6, 20}) {
+      Eigen::MatrixXd P(size, size);
+      Eigen::MatrixXd Y(size, m);
+      for (double& value : P.reshaped()) value = random.normal();
+      for (double& value : Y.reshaped()) value = random.normal();
+      const Eigen::MatrixXd expected = P - Y * Y.transpose();
+      P.triangularView<Eigen::StrictlyUpper>().setConstant(kNan);
+      subtractOuterProduct(P, Y);
+      double worst = 0.0;
+      double worst_of_twin = 0.0;
+      for (int col = 0; col < size; ++col) {
+        for (int row = 0; row < size; ++row) {
+          if (row < col) {
+            EXPECT_TRUE(std::isnan(P(row, col))) << "above the diagonal is not ours";
+            continue;
+          }
+          worst = std::max(worst, std::abs(P(row, col) - expected(row, col)));
+          worst_of_twin = std::max(
+              worst_of_twin, std::abs(P(row, col) - expected(row, col) - Y(row, 0) * Y(col, 0)));
+        }
+      }
+      EXPECT_LT(worst, 1e-13) << size << " x " << m;
+      EXPECT_GT(worst_of_twin, 1e-3) << "must fail: one column left out";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace slamscope::slam

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/tag_detector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "rendered_tag.hpp"
+
+namespace slamscope::tracking {
+namespace {
+
+using Eigen::Vector2d, Eigen::Vector3d;
+using testing::Picture, testing::PrintedTag, testing::render, testing::Rendering;
+using Corners = std::array<Vector2d, 4>;
+
+/// Corners (order of tagCorners) of a tag near the middle of a picture 1.5 side + 40 wide, turned
+/// and tilted.
+Corners someCorners(double side, bool aligned, std::mt19937& random) {
+  std::uniform_real_distribution<double> any(-0.5, 0.5);
+  const double middle = std::round(0.75 * side + 20);
+  const Vector2d centre(middle + any(random), middle + any(random));
+  const Eigen::Rotation2Dd turn(aligned ? 0 : 2 * M_PI * any(random));
+  const auto p_tag = tagCorners(side);
+  Corners corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector2d tilt =
+        aligned ? Vector2d(0, 0) : side * 0.08 * Vector2d(any(random), any(random));
+    corners[i] = centre + turn * Vector2d(p_tag[i].x() + tilt.x(), -p_tag[i].y() + tilt.y());
+  }
+  return corners;
+}
+
+Rendering through(const Corners& corners) {
+  Rendering rendering;
+  const Eigen::Matrix3d H = testing::squareToPixels(corners).inverse();
+  rendering.tag_of_pixel = [H](const Vector2d& px) {
+    const Vector3d q = H * px.homogeneous();
+    return Vector2d(q.x() / q.z(), q.y() / q.z());
+  };
+  return rendering;
+}
+
+ImageView view(const Picture& picture) {
+  return {picture.grey.data(), picture.width, picture.height, 1};
+}
+
+struct CornerErrors {
+  double rms = 0, nees = 0;  // per axis
+  Vector2d bias = Vector2d::Zero();
+  int missed = 0, unrefined = 0;
+};
+
+/// `offset`: what is done to the corners found before they are compared.
+CornerErrors measure(double side, double blur, const TagDetectorOptions& options,
+                     const Vector2d& offset = {0, 0}) {
+  std::mt19937 random(7);
+  TagDetector detector(options);
+  CornerErrors errors;
+  constexpr int kTags = 8;
+  int corners = 0;
+  for (int k = 0; k < kTags; ++k) {
+    const Corners truth = someCorners(side, k < 3, random);
+    Rendering rendering = through(truth);
+    rendering.width = rendering.height = int(1.5 * side + 40);
+    rendering.blur_px = blur;
+    rendering.seed = unsigned(k) + 1;
+    const auto tags = detector.detect(view(render(PrintedTag(k), rendering)));
+    if (tags.size() != 1 || tags[0].id != k) {
+      ++errors.missed;
+      continue;
+    }
+    errors.unrefined += tags[0].refined ? 0 : 1;
+    for (std::size_t i = 0; i < 4; ++i, ++corners) {
+      const Vector2d e = tags[0].corners_px[i] + offset - truth[i];
+      errors.rms += e.squaredNorm() / 2;
+      errors.nees += e.squaredNorm() / 2 / std::pow(tags[0].sigma_px[i], 2);
+      errors.bias += e;
+    }
+  }
+  errors.rms = std::sqrt(errors.rms / corners);
+  errors.nees /= corners;
+  errors.bias /= corners;
+  return errors;
+}
+
+/// Figure T2 of the specification.
+bool meetsT2(const CornerErrors& errors) {
+  return errors.missed == 0 && errors.rms <= 0.02 && errors.bias.cwiseAbs().maxCoeff() <= 0.005;
+}
+
+TEST(TagDetector, CornersAreWithinFiftiethOfAPixel) {
+  for (const double side : {40.0, 80.0, 120.0}) {
+    for (const double blur : {0.0, 0.3, 0.6}) {
+      const CornerErrors errors = measure(side, blur, {});
+      EXPECT_TRUE(meetsT2(errors))
+          << side << " px, blur " << blur << ": rms " << errors.rms << ", bias "
+          << errors.bias.transpose() << ", missed " << errors.missed;
+      EXPECT_EQ(errors.unrefined, 0);
+      EXPECT_LT(errors.nees, 1.6) << "sigma_px promises too much";
+      EXPECT_GT(errors.nees, 0.15) << "sigma_px promises too little";
+    }
+  }
+}
+
+TEST(TagDetector, HalfAPixelWouldBeSeen) {
+  EXPECT_FALSE(meetsT2(measure(80, 0.6, {}, {0.5, 0.5})));
+  EXPECT_FALSE(meetsT2(measure(80, 0.6, {}, {0.02, 0})));
+}
+
+TEST(TagDetector, WithoutRefinementTheFigureIsMissed) {
+  TagDetectorOptions options;
+  options.refine = false;
+  EXPECT_FALSE(meetsT2(measure(80, 0.6, options)));
+}
+
+TEST(TagDetector, SearchingAtHalfSizeChangesNoCorner) {
+  TagDetectorOptions options;
+  options.quad_decimate = 2;
+  EXPECT_TRUE(meetsT2(measure(60, 0.5, options)));
+}
+
+TEST(TagDetector, SmallTagsAreStillFoundAndTheirSigmaSaysSo) {
+  const CornerErrors errors = measure(18, 0.5, {});
+  EXPECT_EQ(errors.missed, 0);
+  EXPECT_EQ(errors.unrefined, 8);
+  EXPECT_LT(errors.nees, 2.5);
+}
+
+TEST(TagDetector, FirstCornerIsTheLowerLeftOfTheUprightTag) {
+  const Corners upright{Vector2d(60, 140), {140, 140}, {140, 60}, {60, 60}};
+  const auto tags = TagDetector().detect(view(render(PrintedTag(5), through(upright))));
+  ASSERT_EQ(tags.size(), 1U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((tags[0].corners_px[i] - upright[i]).norm(), 0.05);
+  const auto p_tag = tagCorners(2);
+  EXPECT_EQ(p_tag[0], Vector3d(-1, -1, 0));
+  EXPECT_EQ(p_tag[2], Vector3d(1, 1, 0));
+}
+
+TEST(TagDetector, MirroredTagIsNoTag) {
+  const Corners mirrored{Vector2d(140, 140), {60, 140}, {60, 60}, {140, 60}};
+  EXPECT_TRUE(TagDetector().detect(view(render(PrintedTag(5), through(mirrored)))).empty());
+}
+
+TEST(TagDetector, SidesMayBowUnderAKnownLens) {
+  CameraInfo info;
+  info.width = info.height = 200;
+  info.K << 120, 0, 99.5, 0, 120, 99.5, 0, 0, 1;
+  info.D = {-0.25, 0.05, 0, 0};
+  const CameraModel camera(info);
+  const Corners straight{Vector2d(120, 195), {205, 190}, {200, 110}, {115, 115}};  // undistorted
+  const Eigen::Matrix3d H = testing::squareToPixels(straight).inverse();
+  Rendering rendering;
+  rendering.tag_of_pixel = [&](const Vector2d& px) {
+    const auto ray = camera.unproject(px);
+    if (!ray) return Vector2d(9, 9);
+    const Vector3d q = H * info.K * *ray;
+    return Vector2d(q.x() / q.z(), q.y() / q.z());
+  };
+  const Picture picture = render(PrintedTag(3), rendering);
+  const auto worst = [&](const TagDetectorOptions& options) {
+    const auto tags = TagDetector(options).detect(view(picture));
+    double error = tags.size() == 1 ? 0 : 1e9;
+    for (std::size_t i = 0; i < 4 && error < 1e9; ++i) {
+      const Vector3d ray = info.K.inverse() * straight[i].homogeneous();
+      error = std::max(error, (tags[0].corners_px[i] - *camera.project(ray)).norm());
+    }
+    return error;
+  };
+  TagDetectorOptions options;
+  EXPECT_GT(worst(options), 0.2) << "without the lens, straight lines can't fit";
+  options.camera = camera;
+  EXPECT_LT(worst(options), 0.03);
+}
+
+TEST(TagDetector, ColourAndGreyAgree) {
+  std::mt19937 random(3);
+  const Picture picture = render(PrintedTag(9), through(someCorners(70, false, random)));
+  Frame frame;
+  frame.width = picture.width;
+  frame.height = picture.height;
+  for (const std::uint8_t grey : picture.grey) frame.bgr.insert(frame.bgr.end(), 3, grey);
+  TagDetector detector;
+  const auto grey = detector.detect(view(picture)), colour = detector.detect(frame);
+  ASSERT_EQ(grey.size(), 1U);
+  ASSERT_EQ(colour.size(), 1U);
+  EXPECT_EQ(grey[0].corners_px, colour[0].corners_px);
+}
+
+TEST(TagDetector, NoiseAloneHoldsNoTag) {
+  std::mt19937 random(4);
+  std::vector<std::uint8_t> noise(320 * 240);
+  for (auto& pixel : noise) pixel = std::uint8_t(random());
+  EXPECT_TRUE(TagDetector().detect({noise.data(), 320, 240, 1}).empty());
+}
+
+TEST(TagDetector, RefusesTheFamilyThatSeesTagsEverywhere) {
+  EXPECT_NO_THROW(TagDetector({.family = "tag25h9"}));
+  EXPECT_NO_THROW(TagDetector({.family = "Standard41h12"}));
+  try {
+    TagDetector detector({.family = "tag16h5"});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("16h5 is refused"), std::string::npos);
+  }
+  EXPECT_THROW(TagDetector({.family = "36h12"}), std::invalid_argument);
+}
+
+TEST(TagDetector, RefusesAnEmptyPicture) {
+  EXPECT_THROW(static_cast<void>(TagDetector().detect({nullptr, 0, 0, 1})), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace slamscope::tracking
