@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
 #endif
   addSimulate(program);
   addSlam(program);
+  addAudit(program);
   addInfo(program);
   addConvert(program);
 #ifdef SLAMSCOPE_VIEW
@@ -81,6 +82,8 @@ int run(int argc, char** argv) {
 #endif
   try {
     program.parse(argc, argv);
+  } catch (const CLI::RuntimeError& result) {  // a verb that answers by its exit status
+    return result.get_exit_code();
   } catch (const CLI::ParseError& error) {
     return complain(program, error);
   } catch (const std::exception& error) {

@@ -9,6 +9,7 @@ namespace slamscope::apps {
 
 void addSimulate(CLI::App& program);
 void addSlam(CLI::App& program);
+void addAudit(CLI::App& program);
 void addInfo(CLI::App& program);
 void addConvert(CLI::App& program);
 void addMonitor(CLI::App& program);
