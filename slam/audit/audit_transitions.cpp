@@ -15,10 +15,6 @@
 namespace slamscope::slam {
 namespace {
 
-double seconds(const Snapshot& snapshot) {
-  return 1e-9 * static_cast<double>(snapshot.time.count());
-}
-
 constexpr const char* kExtraStates = "further states stand in the state vector";
 
 /// Every blamed feature stands in the map as one that was initialised in this very record: removed
@@ -103,7 +99,7 @@ void Audit::State::judgeUpdate(const Transition& t) {
   if (!s.extra.empty()) {
     note(Law::support, Outcome::notCheckable(kExtraStates), s);
     judgeShrink(t, false, true);
-    nis.take(estimateStepInnovation(t), {s.sequence, seconds(s)});
+    nis.take(estimateStepInnovation(t), {s.sequence, seconds(s.time)});
     return;
   }
   UpdateAnatomy anatomy = checkSupport(t, points);
@@ -117,7 +113,7 @@ void Audit::State::judgeUpdate(const Transition& t) {
   judgeShrink(t, false, !anatomy.fit.whole);
   note(Law::range, checkRange(t, anatomy), s);
   const InnovationEstimate estimate = estimateInnovation(t, anatomy);
-  nis.take(estimate, {s.sequence, seconds(s)});
+  nis.take(estimate, {s.sequence, seconds(s.time)});
   const bool given = !s.observations.empty() && !s.observations.front().R.isZero(0.0);
   if (header.R || given) {
     const Eigen::Matrix2d R = header.R ? *header.R : s.observations.front().R;
@@ -154,7 +150,7 @@ void Audit::State::judgeStep(const Transition& t) {
       note(Law::rank, anatomy.support, s);
     }
   }
-  nis.take(estimateStepInnovation(t), {s.sequence, seconds(s)});
+  nis.take(estimateStepInnovation(t), {s.sequence, seconds(s.time)});
 }
 
 }  // namespace slamscope::slam
