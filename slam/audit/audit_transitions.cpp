@@ -72,6 +72,10 @@ void Audit::State::judgePrediction(const Transition& t) {
   note(Law::motion, motion.outcome, s);
   hint(motion.allow);
   if (motion.outcome.violated() || allows(Allow::inflation)) return;
+  if (allow_hints.contains("fej")) {
+    note(Law::process_noise, Outcome::notCheckable("F is not taken at the mean (--allow fej)"), s);
+    return;
+  }
   const LawTally& tally = tallies[static_cast<std::size_t>(Law::motion)];
   const bool whole =
       !motion.nearly && !motion.allow && tally.violations() == 0 && tally.checked() > 0;
@@ -103,6 +107,8 @@ void Audit::State::judgeUpdate(const Transition& t) {
     return;
   }
   UpdateAnatomy anatomy = checkSupport(t, points);
+  const InnovationEstimate estimate = estimateInnovation(t, anatomy);
+  tellUsedTwice(estimate, anatomy);
   hint(anatomy.allow);
   for (const Allow allow :
        {Allow::robocentric, Allow::fej, Allow::iterated, Allow::absolute_sensor}) {
@@ -112,7 +118,6 @@ void Audit::State::judgeUpdate(const Transition& t) {
   note(Law::rank, checkRank(t, anatomy), s);
   judgeShrink(t, false, !anatomy.fit.whole);
   note(Law::range, checkRange(t, anatomy), s);
-  const InnovationEstimate estimate = estimateInnovation(t, anatomy);
   nis.take(estimate, {s.sequence, seconds(s.time)});
   const bool given = !s.observations.empty() && !s.observations.front().R.isZero(0.0);
   if (header.R || given) {

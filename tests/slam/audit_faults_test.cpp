@@ -99,8 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{"noise-degrees", FaultClass::code, "degrees squared"},
                     Expected{"noise-9x", FaultClass::code, "multiple of the declared"},
                     Expected{"noise-unrotated", FaultClass::statistics, "not rotated"}),
-    [](const testing::TestParamInfo<Expected>& info) {
-      std::string name = info.param.fault;
+    [](const testing::TestParamInfo<Expected>& planted_one) {
+      std::string name = planted_one.param.fault;
       std::replace(name.begin(), name.end(), '-', '_');
       return name;
     });
