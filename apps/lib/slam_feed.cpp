@@ -22,6 +22,7 @@ class RecordedFeed : public SlamFeed {
   }
   std::optional<nanoseconds> start() const override { return start_; }
   bool ended() const override { return ended_; }
+  const slam::RunHeader& header() const override { return replay_.reader().header(); }
 
  private:
   slam::Replay replay_;
@@ -31,7 +32,8 @@ class RecordedFeed : public SlamFeed {
 
 class SimulatedFeed : public SlamFeed {
  public:
-  explicit SimulatedFeed(const slam::SimulationOptions& options) : simulation_(options) {}
+  explicit SimulatedFeed(const slam::SimulationOptions& options)
+      : simulation_(options), header_(simulation_.header()) {}
   slam::Subject& subject() override { return simulation_.filter(); }
   void advanceTo(nanoseconds time) override {
     while (!ended_ && next_ <= time) {
@@ -41,9 +43,11 @@ class SimulatedFeed : public SlamFeed {
   }
   std::optional<nanoseconds> start() const override { return nanoseconds{0}; }
   bool ended() const override { return ended_; }
+  const slam::RunHeader& header() const override { return header_; }
 
  private:
   slam::Simulation simulation_;
+  slam::RunHeader header_;
   nanoseconds next_{0};
   bool ended_ = false;
 };
@@ -58,6 +62,7 @@ class LinkFeed : public SlamFeed {
   std::optional<nanoseconds> start() const override { return std::nullopt; }
   bool ended() const override { return link_.status().state == slam::LinkStatus::State::ended; }
   std::uint64_t runs() const override { return link_.status().runs; }
+  const slam::RunHeader& header() const override { return link_.status().header; }
   std::string status() const override {
     const slam::LinkStatus& status = link_.status();
     std::string text = spec_ == "-" ? "standard input" : spec_;

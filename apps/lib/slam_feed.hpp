@@ -29,6 +29,8 @@ class SlamFeed {
   [[nodiscard]] bool live() const { return !start().has_value(); }
   /// Grows when a source came back or began a new run: what was remembered of the last is dropped.
   [[nodiscard]] virtual std::uint64_t runs() const { return 1; }
+  /// What the current run says of itself.
+  [[nodiscard]] virtual const slam::RunHeader& header() const = 0;
   /// For the status line: "waiting on 127.0.0.1:7007 for a filter"; empty when there is nothing to
   /// say.
   [[nodiscard]] virtual std::string status() const { return {}; }

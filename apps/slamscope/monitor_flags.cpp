@@ -70,6 +70,11 @@ void addSlamFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--time-offset", rest.time_offset,
                   "s, added to a frame's time before the run is asked")
       ->group(group);
+  verb.add_flag("!--no-audit", rest.audit, "flag nothing")->group(group);
+  verb.add_option("--allow", flags.allow,
+                  "laws that the filter breaks by design (slamscope audit --help)")
+      ->delimiter(',')
+      ->group(group);
   verb.add_option("--map-scale", flags.map_scale,
                   "size of the map on the floor: 0.1 draws 10 m as 1 m")
       ->check(CLI::PositiveNumber)
@@ -79,7 +84,10 @@ void addSlamFlags(CLI::App& verb, MonitorFlags& flags) {
 void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
   const std::string group = "Drawing";
   MonitorOptions& rest = flags.rest;
-  verb.add_option("--mode", flags.mode, "pairs: all, between-clusters, min-mean-max, selected")
+  verb.add_option(
+          "--mode", flags.mode,
+          "pairs: all, between-clusters, min-mean-max, selected; alarms: what the audit flags "
+          "only (flagged is magenta in every mode)")
       ->check(CLI::IsMember({"all", "between-clusters", "min-mean-max", "selected", "alarms"}))
       ->group(group);
   verb.add_option("--select", rest.selected, "ids of features whose pairs `--mode selected` shows")
@@ -150,8 +158,11 @@ MonitorOptions MonitorFlags::options() const {
   if (exposure_ms > 0.0) {
     options.v4l2.exposure = std::chrono::microseconds(std::lround(1000.0 * exposure_ms));
   }
-  if (options.mode == slam::PairMode::alarms) {
-    throw std::invalid_argument("--mode alarms is not supported yet");
+  for (const std::string& word : allow) {
+    options.audit_options.allow.insert(slam::allowFromName(word));
+  }
+  if (options.mode == slam::PairMode::alarms && !options.audit) {
+    throw std::invalid_argument("--mode alarms needs the audit: leave --no-audit out");
   }
   if (options.mode == slam::PairMode::selected && options.selected.empty()) {
     throw std::invalid_argument("--mode selected needs --select ID,ID,…");

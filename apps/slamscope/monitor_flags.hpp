@@ -15,6 +15,7 @@ struct MonitorFlags {
   std::string mode = "all";
   std::string axis = "sigma";
   std::string size;
+  std::vector<std::string> allow;
   double k = 3.0;
   double gain = 0.0;         ///< 0: the axis's own
   double map_scale = 0.0;    ///< 0: automatic

@@ -120,7 +120,9 @@ void Audit::State::take(const SnapshotPtr& snapshot) {
   extra = extra || !s.extra.empty();
   truth = truth || s.truth.has_value();
   innovations = innovations || !s.observations.empty();
-  if (!s.observed.empty() || s.event == Event::update) ++updates;
+  // Not initialisations: they observe, but a feature that is written wrongly stands still in them.
+  const bool observing_step = s.event == Event::step && !s.observed.empty();
+  if (observing_step || s.event == Event::update) ++updates;
   covariance_precision.take(s.covariance.packed());
   if (options.means_known) {
     mean_precision.take({s.pose.data(), 3});

@@ -6,13 +6,15 @@
 namespace slamscope::apps {
 namespace {
 
-TEST(KeyCommands, ModeGoesRoundTheThreeOfThePaper) {
+TEST(KeyCommands, ModeGoesRoundTheThreeOfThePaperAndTheAlarms) {
   Monitor::Choices choices;
   KeyCommands keys(choices);
   keys.press('m');
   EXPECT_EQ(choices.mode, slam::PairMode::between_clusters);
   keys.press('m');
   EXPECT_EQ(choices.mode, slam::PairMode::min_mean_max);
+  keys.press('m');
+  EXPECT_EQ(choices.mode, slam::PairMode::alarms);
   keys.press('m');
   EXPECT_EQ(choices.mode, slam::PairMode::all);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/lib/view/legend.hpp"
@@ -27,11 +28,13 @@ Shown endOfRun() {
   return shown;
 }
 
-engine::Scene sceneOf(const Shown& shown, const SceneStyle& style) {
+engine::Scene sceneOf(const Shown& shown, const SceneStyle& style, const AlarmMarks& alarms = {}) {
   PathTrace path;
   path.add({0.0, 0.0});
   path.add(shown.snapshot.pose.head<2>());
-  return buildScene(shown.snapshot, path, shown.clusters, style);
+  return buildScene(
+      {.snapshot = shown.snapshot, .path = path, .clusters = shown.clusters, .alarms = alarms},
+      style);
 }
 
 /// The middle of the pair's line, where its ellipsoid belongs.
@@ -99,6 +102,68 @@ TEST(SceneBuilder, SelectedShowsThePairsOfThePickedFeatureOnly) {
   const Shown shown = endOfRun();
   const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::selected, .selected = {3}});
   EXPECT_EQ(scene.ellipsoids.size(), 14U);
+}
+
+/// Feature 3 is flagged, with all its pairs, which had `last_good` before.
+AlarmMarks thirdFlagged(const Shown& shown, const Eigen::Matrix2d& last_good) {
+  Judgement judgement;
+  judgement.alarms.features = {{.feature = 3, .last_good = last_good}};
+  for (const slam::FeatureId other : shown.snapshot.ids) {
+    if (other == 3) continue;
+    judgement.alarms.pairs.push_back(
+        {std::min<slam::FeatureId>(3, other), std::max<slam::FeatureId>(3, other), last_good});
+  }
+  return AlarmMarks(judgement);
+}
+
+bool alike(const engine::Rgba& a, const engine::Rgba& b) {
+  return a.r == b.r && a.g == b.g && a.b == b.b && a.a == b.a;
+}
+
+template <typename Glyphs>
+std::ptrdiff_t count(const Glyphs& glyphs, const engine::Rgba& hue) {
+  return std::count_if(glyphs.begin(), glyphs.end(),
+                       [&](const auto& glyph) { return alike(glyph.colour, hue); });
+}
+
+TEST(SceneBuilder, AlarmsShowFlaggedFeaturesAndPairsOnlyEachInItsHalo) {
+  const Shown shown = endOfRun();
+  const Eigen::Matrix2d last_good = Eigen::Vector2d(0.04, 0.01).asDiagonal();
+  const AlarmMarks alarms = thirdFlagged(shown, last_good);
+  const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::alarms}, alarms);
+  EXPECT_EQ(scene.cones.size(), 2U);  // the robot's, and feature 3's
+  EXPECT_EQ(count(scene.cones, colour::kFlagged), 1);
+  EXPECT_EQ(scene.labels.size(), 1U);
+  EXPECT_EQ(ellipsoidCount(scene), 14U);
+  EXPECT_EQ(count(scene.ellipsoids, colour::kFlaggedEllipsoid), 14);
+  ASSERT_EQ(count(scene.ellipsoids, colour::kHalo), 14);
+  for (const engine::Ellipsoid& halo : scene.ellipsoids) {
+    if (!alike(halo.colour, colour::kHalo)) continue;
+    EXPECT_NEAR(halo.axes.col(0).norm(), 3.0 * 0.2, 1e-12);
+    EXPECT_NEAR(halo.axes.col(1).norm(), 3.0 * 0.1, 1e-12);
+  }
+  EXPECT_EQ(count(scene.lines, colour::kHaloRing), 1);
+}
+
+TEST(SceneBuilder, FlaggedIsMagentaInEveryModeAndNothingElseIs) {
+  const Shown shown = endOfRun();
+  const AlarmMarks alarms = thirdFlagged(shown, Eigen::Matrix2d::Identity());
+  const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::all}, alarms);
+  EXPECT_EQ(ellipsoidCount(scene), 105U);
+  EXPECT_EQ(count(scene.ellipsoids, colour::kFlaggedEllipsoid), 14);
+  EXPECT_EQ(count(scene.ellipsoids, colour::kEllipsoid), 105 - 14);
+  EXPECT_EQ(count(scene.lines, colour::kFlaggedPair), 14);
+  EXPECT_EQ(scene.cones.size(), 16U);
+  EXPECT_EQ(count(scene.cones, colour::kFlagged), 1);
+
+  const engine::Scene summary = sceneOf(shown, {.mode = slam::PairMode::min_mean_max}, alarms);
+  EXPECT_EQ(ellipsoidCount(summary), 9U);
+
+  // Twin: without alarms nothing is.
+  const engine::Scene healthy = sceneOf(shown, {.mode = slam::PairMode::all});
+  EXPECT_EQ(count(healthy.ellipsoids, colour::kFlaggedEllipsoid), 0);
+  EXPECT_EQ(count(healthy.cones, colour::kFlagged), 0);
+  EXPECT_TRUE(sceneOf(shown, {.mode = slam::PairMode::alarms}).ellipsoids.empty());
 }
 
 TEST(SceneBuilder, AxesAreThoseOfTheRelativeCovariance) {

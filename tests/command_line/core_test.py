@@ -83,6 +83,52 @@ class Runs(program.InAFolder):
         self.assertEqual([f.name for f in self.folder.iterdir()], ["run.jsonl"])
 
 
+class MonteCarlo(program.InAFolder):
+    def run_many(self, *words):
+        status, text, errors = self.run_here("simulate", "--loops", 1, *words)
+        self.assertEqual(status, 0, errors)
+        return text
+
+    def test_a_correct_filter_is_consistent_and_writes_no_run(self):
+        text = self.run_many("--runs", 30, "--json", "mc.json")
+        self.assertEqual(text.count("consistent"), 3, text)
+        self.assertEqual([f.name for f in self.folder.iterdir()], ["mc.json"])
+        result = self.load("mc.json")
+        self.assertEqual((result["runs"], result["first_seed"], result["last_seed"]), (30, 1, 30))
+        for what in ("anees_pose", "anees_features", "nis"):
+            one = result[what]
+            self.assertTrue(one["low"] < one["mean"] < one["high"], one)
+            self.assertEqual(len(result["steps"][0]), 4)
+        self.assertTrue(all(a["time_s"] < b["time_s"]
+                            for a, b in zip(result["steps"], result["steps"][1:])))
+
+    def test_a_noise_nine_times_too_large_is_not(self):
+        text = self.run_many("--runs", 10, "--fault", "noise-9x", "--json", "mc.json")
+        self.assertIn("underconfident", text)
+        nis = self.load("mc.json")["nis"]
+        self.assertFalse(nis["inside"])
+        self.assertLess(nis["mean"], 0.5)
+
+    def test_the_same_seeds_give_the_same_numbers(self):
+        first = self.run_many("--runs", 8, "--seed", 5)
+        self.assertEqual(first, self.run_many("--runs", 8, "--seed", 5))
+        self.assertNotEqual(first, self.run_many("--runs", 8, "--seed", 6))
+
+    def test_a_run_to_write_is_refused(self):
+        self.refused("simulate", "--runs", 3, "-o", "run.jsonl", saying=["--output", "--seed"])
+        self.refused("simulate", "--runs", 3, "--record", "all", saying="--record")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_its_words_need_it(self):
+        self.refused("simulate", "--json", "mc.json", saying="--runs")
+        self.refused("simulate", "--confidence", 0.9, saying="--runs")
+
+    def test_no_runs_and_a_file_that_cannot_be_written(self):
+        self.refused("simulate", "--runs", 0, saying="--runs")
+        self.refused("simulate", "--runs", "many", saying="--runs")
+        self.refused("simulate", "--runs", 3, "--json", "none/mc.json", saying="none/mc.json")
+
+
 class Csv(program.InAFolder):
     def data(self, odometry="0,1,0\n1,1,0\n2,1,0\n"):
         self.write("d/odometry.csv", "time_s,forward_mps,turn_radps\n" + odometry)

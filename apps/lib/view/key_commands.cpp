@@ -14,6 +14,9 @@ void KeyCommands::nextMode() {
     case PairMode::between_clusters:
       choices_.mode = PairMode::min_mean_max;
       break;
+    case PairMode::min_mean_max:
+      choices_.mode = PairMode::alarms;
+      break;
     default:
       choices_.mode = PairMode::all;
       break;

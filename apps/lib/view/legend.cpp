@@ -31,6 +31,7 @@ struct Layout {
 
 constexpr engine::Rgba kPanel{0.04F, 0.05F, 0.07F, 0.66F};
 constexpr engine::Rgba kText{0.96F, 0.96F, 0.96F, 1.0F};
+constexpr engine::Rgba kAlarmText{1.0F, 0.55F, 0.96F, 1.0F};  // of magenta what reads on the panel
 
 template <typename... Values>
 std::string format(const char* pattern, Values... values) {
@@ -66,13 +67,21 @@ std::string axisText(const slam::AxisScale& axis) {
 }
 
 std::vector<Row> rowsOf(const Legend& legend) {
-  std::vector<Row> rows{{colour::kRobot, "robot and its path"}, {colour::kFeature, "features"}};
+  const bool only_flagged = legend.mode == slam::PairMode::alarms;
+  std::vector<Row> rows{{colour::kRobot, "robot and its path"}};
+  if (!only_flagged) rows.emplace_back(colour::kFeature, "features");
   if (legend.covariance_rings) {
     rows.push_back({colour::kFeature, format("ring: %gσ of the position", legend.axis.k)});
   }
-  const bool three = legend.mode == slam::PairMode::min_mean_max;
-  rows.push_back({colour::kEllipsoid, std::string(three ? "least, mean, greatest" : "relative") +
-                                          " covariance, " + axisText(legend.axis)});
+  if (!only_flagged) {
+    const bool three = legend.mode == slam::PairMode::min_mean_max;
+    rows.push_back({colour::kEllipsoid, std::string(three ? "least, mean, greatest" : "relative") +
+                                            " covariance, " + axisText(legend.axis)});
+  }
+  if (legend.flagged) {
+    rows.emplace_back(colour::kFlagged, "flagged by the audit; faint: its last good size");
+    if (only_flagged) rows.emplace_back(engine::Rgba{.a = 0.0F}, axisText(legend.axis));
+  }
   if (legend.clusters > 0) {
     rows.push_back({{},
                     format("%d clusters, cut at ", legend.clusters) +
@@ -81,6 +90,29 @@ std::vector<Row> rowsOf(const Legend& legend) {
     rows.back().swatch.a = 0.0F;
   }
   return rows;
+}
+
+Eigen::Vector2d panelSize(const std::vector<AlarmLine>& lines, const Layout& px,
+                          engine::FontAtlas& fonts) {
+  double width = 0.0;
+  for (const AlarmLine& line : lines) {
+    width = std::max(width, engine::measureText(fonts, line.text, px.text).width_px);
+  }
+  const double height = px.row * static_cast<double>(lines.size());
+  return {width + 2.0 * px.padding, height + 2.0 * px.padding - 2.0};
+}
+
+void addPanel(engine::Scene& scene, const std::vector<AlarmLine>& lines,
+              const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Layout& px) {
+  Eigen::Vector2d at = corner + Eigen::Vector2d::Constant(px.padding);
+  for (const AlarmLine& line : lines) {
+    scene.texts.push_back({.position_px = at,
+                           .text = line.text,
+                           .height_px = px.text,
+                           .colour = line.alarm ? kAlarmText : kText});
+    at.y() += px.row;
+  }
+  scene.rects.push_back({.min_px = corner, .max_px = corner + size, .colour = kPanel});
 }
 
 /// What the scale bar of `length` (m of the map) stands for.
@@ -121,20 +153,27 @@ double eigenvalueOfLength(const slam::AxisScale& axis, double length) {
 
 void addStatus(engine::Scene& scene, const std::vector<std::string>& lines,
                const engine::Pinhole& camera, engine::FontAtlas& fonts) {
+  const std::vector<AlarmLine> plain(lines.begin(), lines.end());
   const Layout px(camera);
-  double width = 0.0;
-  double y = px.margin + px.padding;
-  for (const std::string& line : lines) {
-    width = std::max(width, engine::measureText(fonts, line, px.text).width_px);
-    scene.texts.push_back({.position_px = {px.margin + px.padding, y},
-                           .text = line,
-                           .height_px = px.text,
-                           .colour = kText});
-    y += px.row;
+  addPanel(scene, plain, Eigen::Vector2d::Constant(px.margin), panelSize(plain, px, fonts), px);
+}
+
+void addAlarms(engine::Scene& scene, std::vector<AlarmLine> lines, const engine::Pinhole& camera,
+               engine::FontAtlas& fonts) {
+  if (lines.empty()) return;
+  const Layout px(camera);
+  const Eigen::Vector2d far = Eigen::Vector2d(camera.width, camera.height).array() - px.margin;
+  Eigen::Vector2d size = panelSize(lines, px, fonts);
+  double bottom = far.y();
+  for (const engine::ScreenRect& other : scene.rects) {
+    const bool in_the_way = (other.max_px.array() > (far - size).array()).all();
+    if (in_the_way) bottom = std::min(bottom, other.min_px.y() - px.margin);
   }
-  scene.rects.push_back({.min_px = {px.margin, px.margin},
-                         .max_px = {px.margin + width + 2.0 * px.padding, y + px.padding - 2.0},
-                         .colour = kPanel});
+  if (bottom < far.y()) {
+    lines.resize(std::min(lines.size(), kFewAlarms), AlarmLine({}));
+    size = panelSize(lines, px, fonts);
+  }
+  addPanel(scene, lines, {far.x() - size.x(), bottom - size.y()}, size, px);
 }
 
 void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole& camera,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/lib/view/scene_builder.hpp"
@@ -20,12 +21,27 @@ struct Legend {
   int clusters = 0;          ///< 0: not shown
   double cluster_cut = 0.0;  ///< m
   bool automatic_cut = true;
+  bool flagged = false;   ///< something is, or could be, drawn as flagged by the audit
   double px_per_m = 0.0;  ///< of the scene at the middle of the map; 0: no scale bar
 };
 
 /// Puts lines of text on a dark panel in the picture's upper left corner.
 void addStatus(engine::Scene& scene, const std::vector<std::string>& lines,
                const engine::Pinhole& camera, engine::FontAtlas& fonts);
+
+/// A line of what the audit says.
+struct AlarmLine {
+  explicit AlarmLine(std::string_view said, bool is_alarm = false) : text(said), alarm(is_alarm) {}
+
+  std::string text;
+  bool alarm = false;  ///< in the colour of what the audit flags
+};
+
+/// The same in the lower right corner. Where there is no room beside other panels only the first
+/// kFewAlarms lines, above them. Nothing for no lines.
+inline constexpr std::size_t kFewAlarms = 2;
+void addAlarms(engine::Scene& scene, std::vector<AlarmLine> lines, const engine::Pinhole& camera,
+               engine::FontAtlas& fonts);
 
 /// Puts the legend into the picture's lower left corner: what each glyph is, how long its axes are,
 /// and a bar of a round length with what it stands for.

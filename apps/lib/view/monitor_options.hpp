@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/lib/view/scene_builder.hpp"
+#include "slam/audit/audit.hpp"
 #include "slam/simulation.hpp"
 #include "tracking/v4l2_source.hpp"
 
@@ -30,6 +31,9 @@ struct MonitorOptions {
   double slam_rate = 1.0;           ///< seconds of the run per second of the camera
   double time_offset = 0.0;         ///< s, added to a frame's time before the run is asked
   std::optional<double> map_scale;  ///< absent: 1, or what fits a lab
+
+  bool audit = true;  ///< flag what breaks the laws
+  slam::AuditOptions audit_options;
 
   slam::PairMode mode = slam::PairMode::all;
   slam::AxisScale axis;

@@ -38,6 +38,38 @@ ordered_json registrationJson(const FrameReport& frame) {
   return json;
 }
 
+ordered_json brokenJson(const slam::LawReport& law) {
+  ordered_json features = ordered_json::array();
+  for (const slam::Blame& blame : law.blame) features.push_back(blame.feature);
+  return {{"law", slam::lawName(law.law)},
+          {"class", slam::faultClassName(*law.fault_class)},
+          {"first_record", law.first_record.value_or(0)},
+          {"first_time_s", law.first_time_s.value_or(0.0)},
+          {"violations", law.violations},
+          {"amount", law.amount},
+          {"features", std::move(features)}};
+}
+
+ordered_json alarmsJson(const std::optional<Judgement>& judgement) {
+  if (!judgement) return nullptr;
+  ordered_json broken = ordered_json::array();
+  for (const slam::LawReport& law : judgement->broken) broken.push_back(brokenJson(law));
+  ordered_json first = ordered_json::array();
+  for (const slam::FeatureAlarm& alarm : judgement->alarms.features) {
+    first.push_back({{"feature", alarm.feature},
+                     {"law", slam::lawName(alarm.law)},
+                     {"record", alarm.first_record},
+                     {"active", alarm.active}});
+  }
+  return {{"records", judgement->records},
+          {"record", judgement->record},
+          {"time_s", std::chrono::duration<double>(judgement->time).count()},
+          {"broken", std::move(broken)},
+          {"flagged", judgement->flagged()},
+          {"flagged_pairs", judgement->alarms.pairs.size()},
+          {"blamed", std::move(first)}};
+}
+
 }  // namespace
 
 std::optional<double> quantile(std::vector<double> values, double share) {
@@ -59,7 +91,8 @@ void MonitorReport::add(const FrameReport& frame) {
                      {"overlay_error_px", orNull(worst)},
                      {"slam_error_m", orNull(frame.slam_error_m)},
                      {"drawn", {{"ellipsoids", frame.ellipsoids}, {"features", frame.features}}},
-                     {"tips_px", std::move(tips)}});
+                     {"tips_px", std::move(tips)},
+                     {"alarms", alarmsJson(frame.judgement)}});
   overlay_errors_px_.insert(overlay_errors_px_.end(), frame.overlay_errors_px.begin(),
                             frame.overlay_errors_px.end());
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/lib/audit_watch.hpp"
 #include "slam/snapshot.hpp"
 #include "tracking/registration.hpp"
 
@@ -31,6 +32,7 @@ struct FrameReport {
   std::optional<double> slam_error_m;  ///< RMS distance of estimates from true features
   std::size_t ellipsoids = 0, features = 0;
   std::vector<TipPixel> tips;
+  std::optional<Judgement> judgement;  ///< absent where there is no audit
 };
 
 /// Gathers the frames and writes the report. In the file a frame's overlay_error_px is its largest;

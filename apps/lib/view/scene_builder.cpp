@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/lib/view/scene_builder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -12,8 +13,8 @@ namespace {
 /// Builds one scene; holds what every part of it needs.
 class SceneBuilder {
  public:
-  SceneBuilder(const slam::Snapshot& snapshot, const SceneStyle& style)
-      : snapshot_(snapshot), style_(style) {}
+  SceneBuilder(const Belief& belief, const SceneStyle& style)
+      : snapshot_(belief.snapshot), alarms_(belief.alarms), style_(style) {}
 
   void addRobot(const PathTrace& path) {
     engine::Polyline trace{.points = {}, .width_px = 2.5, .colour = colour::kRobot};
@@ -27,17 +28,27 @@ class SceneBuilder {
                              .length = style_.arrow_length,
                              .width = 0.36 * style_.arrow_length,
                              .colour = colour::kHeading});
-    if (style_.covariance_rings) addRing(snapshot_.pose.head<2>(), 0, colour::kRobot);
+    if (style_.covariance_rings) {
+      addRing(snapshot_.pose.head<2>(), snapshot_.covariance.block2(0, 0), colour::kRobot);
+    }
   }
 
   void addFeatures() {
     for (int k = 0; k < snapshot_.featureCount(); ++k) {
+      const AlarmMarks::Mark* mark = alarms_.feature(id(k));
+      if (style_.mode == slam::PairMode::alarms && mark == nullptr) continue;
+      const engine::Rgba& hue = mark != nullptr ? colour::kFlagged : colour::kFeature;
       const Eigen::Vector2d& feature = snapshot_.features[static_cast<std::size_t>(k)];
-      scene_.cones.push_back(cone(onFloor(feature), colour::kFeature));
-      if (style_.covariance_rings) addRing(feature, slam::Snapshot::row(k), colour::kFeature);
+      scene_.cones.push_back(cone(onFloor(feature), hue));
+      if (style_.covariance_rings || (mark != nullptr && mark->last_good)) {
+        const int row = slam::Snapshot::row(k);
+        addRing(feature, snapshot_.covariance.block2(row, row), hue);
+      }
+      if (mark != nullptr && mark->last_good)
+        addRing(feature, *mark->last_good, colour::kHaloRing, 4.0);
       if (!style_.labels) continue;
       scene_.labels.push_back({.anchor = onFloor(feature),
-                               .text = std::to_string(snapshot_.ids[static_cast<std::size_t>(k)]),
+                               .text = std::to_string(id(k)),
                                .colour = {1.0F, 1.0F, 1.0F, 1.0F}});
     }
   }
@@ -45,14 +56,15 @@ class SceneBuilder {
   void addPair(const slam::FeaturePair& pair) {
     const Eigen::Vector3d from = onFloor(snapshot_.features[static_cast<std::size_t>(pair.i)]);
     const Eigen::Vector3d to = onFloor(snapshot_.features[static_cast<std::size_t>(pair.j)]);
-    addLine(from, to);
-    scene_.ellipsoids.push_back(relativeEllipsoid(pair.P_d, 0.5 * (from + to), style_));
+    const bool flagged = alarms_.pair(id(pair.i), id(pair.j)) != nullptr;
+    addLine(from, to, flagged ? colour::kFlaggedPair : colour::kPair);
+    addEllipsoid(pair, relativeEllipsoid(pair.P_d, 0.5 * (from + to), style_));
   }
 
   void addClusterPair(const slam::ClusterPair& pair) {
     const Eigen::Vector3d from = onFloor(pair.centroid_a);
     const Eigen::Vector3d to = onFloor(pair.centroid_b);
-    addLine(from, to);
+    addLine(from, to, colour::kPair);
     const Eigen::Vector3d middle = 0.5 * (from + to);
     engine::Ellipsoid mean = relativeEllipsoid(pair.mean, middle, style_);
     engine::Ellipsoid minimum = relativeEllipsoid(pair.minimum.P_d, middle, style_);
@@ -60,12 +72,17 @@ class SceneBuilder {
     constexpr double kGap = 1.08;  // of the touching distance
     minimum.centre -= kGap * (reach(mean) + reach(minimum)) * style_.viewer_up;
     maximum.centre += kGap * (reach(mean) + reach(maximum)) * style_.viewer_up;
-    scene_.ellipsoids.insert(scene_.ellipsoids.end(), {minimum, mean, maximum});
+    addEllipsoid(pair.minimum, minimum);
+    scene_.ellipsoids.push_back(mean);
+    addEllipsoid(pair.maximum, maximum);
   }
 
   [[nodiscard]] engine::Scene take() { return std::move(scene_); }
 
  private:
+  [[nodiscard]] slam::FeatureId id(int index) const {
+    return snapshot_.ids[static_cast<std::size_t>(index)];
+  }
   [[nodiscard]] Eigen::Vector3d onFloor(const Eigen::Vector2d& p_map) const {
     return {style_.map_scale * p_map.x(), style_.map_scale * p_map.y(), 0.0};
   }
@@ -77,17 +94,31 @@ class SceneBuilder {
   [[nodiscard]] double reach(const engine::Ellipsoid& ellipsoid) const {
     return (ellipsoid.axes.transpose() * style_.viewer_up).norm();
   }
-  void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    scene_.lines.push_back({.points = {from, to}, .width_px = 1.1, .colour = colour::kPair});
+  void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const engine::Rgba& hue) {
+    scene_.lines.push_back({.points = {from, to}, .width_px = 1.1, .colour = hue});
   }
 
-  /// The k-sigma ellipse of the 2×2 block at `row`, as an outline on the floor.
-  void addRing(const Eigen::Vector2d& centre, int row, const engine::Rgba& colour) {
+  /// The pair's ellipsoid; magenta and in its halo where the pair is flagged.
+  void addEllipsoid(const slam::FeaturePair& pair, engine::Ellipsoid ellipsoid) {
+    if (const AlarmMarks::Mark* mark = alarms_.pair(id(pair.i), id(pair.j))) {
+      ellipsoid.colour = colour::kFlaggedEllipsoid;
+      if (mark->last_good) {
+        engine::Ellipsoid halo = relativeEllipsoid(*mark->last_good, ellipsoid.centre, style_);
+        halo.colour = colour::kHalo;
+        scene_.ellipsoids.push_back(halo);
+      }
+    }
+    scene_.ellipsoids.push_back(ellipsoid);
+  }
+
+  /// The k-sigma ellipse of a position's covariance P (m²), as an outline on the floor.
+  void addRing(const Eigen::Vector2d& centre, const Eigen::Matrix2d& P, const engine::Rgba& colour,
+               double width_px = 1.6) {
     constexpr int kPieces = 48;
-    const slam::PrincipalAxes axes = slam::principalAxes(snapshot_.covariance.block2(row, row));
+    const slam::PrincipalAxes axes = slam::principalAxes(P);
     const Eigen::Vector2d semi = style_.axis.k * axes.eigenvalues.cwiseMax(0.0).cwiseSqrt();
     const Eigen::Matrix2d directions = axes.directions();
-    engine::Polyline ring{.points = {}, .width_px = 1.6, .colour = colour};
+    engine::Polyline ring{.points = {}, .width_px = width_px, .colour = colour};
     for (int piece = 0; piece <= kPieces; ++piece) {
       const double angle = 2.0 * std::numbers::pi * piece / kPieces;
       const Eigen::Vector2d on_ring(semi.x() * std::cos(angle), semi.y() * std::sin(angle));
@@ -97,6 +128,7 @@ class SceneBuilder {
   }
 
   const slam::Snapshot& snapshot_;
+  const AlarmMarks& alarms_;
   const SceneStyle& style_;
   engine::Scene scene_;
 };
@@ -117,13 +149,19 @@ engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d, const Eigen::Vec
   return ellipsoid;
 }
 
-engine::Scene buildScene(const slam::Snapshot& snapshot, const PathTrace& path,
-                         const slam::Clustering& clusters, const SceneStyle& style) {
-  SceneBuilder builder(snapshot, style);
-  builder.addRobot(path);
+std::size_t ellipsoidCount(const engine::Scene& scene) {
+  return static_cast<std::size_t>(
+      std::count_if(scene.ellipsoids.begin(), scene.ellipsoids.end(),
+                    [](const engine::Ellipsoid& e) { return e.colour.a != colour::kHalo.a; }));
+}
+
+engine::Scene buildScene(const Belief& belief, const SceneStyle& style) {
+  SceneBuilder builder(belief, style);
+  builder.addRobot(belief.path);
   builder.addFeatures();
   const slam::PairSelection selection =
-      slam::selectPairs(snapshot, style.mode, clusters, {.selected = style.selected, .alarms = {}});
+      slam::selectPairs(belief.snapshot, style.mode, belief.clusters,
+                        {.selected = style.selected, .alarms = belief.alarms.pairs()});
   for (const slam::FeaturePair& pair : selection.pairs) builder.addPair(pair);
   for (const slam::ClusterPair& pair : selection.cluster_pairs) builder.addClusterPair(pair);
   return builder.take();

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/lib/view/alarm_marks.hpp"
 #include "apps/lib/view/path_trace.hpp"
 #include "engine/scene/glyphs.hpp"
 #include "slam/clusters.hpp"
@@ -17,8 +18,8 @@ namespace slamscope::apps {
 /// floor); the map is drawn at `map_scale`.
 struct SceneStyle {
   slam::PairMode mode = slam::PairMode::all;
-  slam::AxisScale axis;
-  std::vector<slam::FeatureId> selected;  ///< for PairMode::selected
+  slam::AxisScale axis{};
+  std::vector<slam::FeatureId> selected{};  ///< for PairMode::selected
   double map_scale = 1.0;
   bool covariance_rings = false;  ///< k-sigma ellipses of robot and features on the floor
   bool labels = true;             ///< feature ids
@@ -41,19 +42,38 @@ inline constexpr engine::Rgba kHeading{1.00F, 0.84F, 0.05F, 1.0F};
 inline constexpr engine::Rgba kFeature{0.05F, 0.85F, 0.95F, 1.0F};
 inline constexpr engine::Rgba kPair{1.00F, 0.90F, 0.10F, 0.60F};
 inline constexpr engine::Rgba kEllipsoid{0.90F, 0.12F, 0.10F, 1.0F};
+// What the audit flags (spec visualisation.md, "Flags").
+inline constexpr engine::Rgba kFlagged{0.96F, 0.05F, 0.86F, 1.0F};
+inline constexpr engine::Rgba kFlaggedPair{0.96F, 0.05F, 0.86F, 0.60F};
+inline constexpr engine::Rgba kFlaggedEllipsoid{0.96F, 0.05F, 0.86F,
+                                                0.60F};  // a halo shows through
+inline constexpr engine::Rgba kHaloRing{1.00F, 0.75F, 0.98F, 0.55F};
+inline constexpr engine::Rgba kHalo{1.00F, 0.62F, 0.97F, 0.38F};
 }  // namespace colour
 
-/// One snapshot as glyphs, in the frame of the map scaled by `map_scale`:
-/// robot and features as cones standing on their tips, heading arrow, path, and the relative
-/// covariances that the mode selects as ellipsoids in the middle of their pair's line. `clusters`
-/// must be of this snapshot.
+/// What is to be shown of a moment.
+struct Belief {
+  const slam::Snapshot& snapshot;
+  const PathTrace& path;
+  const slam::Clustering& clusters;  ///< of this snapshot
+  const AlarmMarks& alarms;
+};
+
+/// A moment as glyphs, in the frame of the map scaled by `map_scale`: robot and features as cones
+/// standing on their tips, heading arrow, path, and the relative covariances that the mode selects
+/// as ellipsoids in the middle of their pair's line.
+///
+/// What the audit flags is magenta in every mode, in a faint halo of its last good size; mode
+/// alarms shows no other features and pairs.
 ///
 /// An ellipsoid's horizontal semi-axes are those of P_d by `axis`, the vertical one is as long as
 /// the minor one (the paper's step against clutter). In mode min-mean-max the minimum stands
 /// underneath and the maximum above the mean as the viewer sees it: from an overhead camera a
 /// vertical stack would hide all but the top one.
-[[nodiscard]] engine::Scene buildScene(const slam::Snapshot& snapshot, const PathTrace& path,
-                                       const slam::Clustering& clusters, const SceneStyle& style);
+[[nodiscard]] engine::Scene buildScene(const Belief& belief, const SceneStyle& style);
+
+/// How many relative covariances the scene shows: ellipsoids without halos.
+[[nodiscard]] std::size_t ellipsoidCount(const engine::Scene& scene);
 
 /// The ellipsoid for one relative covariance (m²), centred at `centre` (scene, m).
 [[nodiscard]] engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d,

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// What the monitor hands on: drawn pictures and the report.
+#include <cmath>
+#include <stdexcept>
+
+#include "apps/lib/view/monitor_state.hpp"
+#include "apps/lib/view/overlay.hpp"
+
+namespace slamscope::apps {
+
+void Monitor::State::draw() {
+  StopWatch watch;
+  compose();
+  report.addStage("scene", watch.lap());
+  offscreen.draw({&picture.view, 1}, picture.scene, picture.render, pixels);
+  report.addStage("draw", watch.lap());
+  if (drawn_frame == frame_count) return;
+  drawn_frame = frame_count;
+  hand();
+  report.addStage("write", watch.lap());
+}
+
+void Monitor::State::hand() {
+  if (output) output->write(pixels.front());
+  if (!options.report.empty()) report.add(frameReport());
+  const bool something =
+      !picture.scene.ellipsoids.empty() || (choices.mode == slam::PairMode::alarms && shown());
+  if (!options.compare.empty() && !start_picture && something) compare();
+}
+
+void Monitor::State::compare() {
+  start_picture = pixels.front();
+  // Nobody looks at what lies between: the lab can go straight to the end.
+  const bool only_compare = !output && options.report.empty() && !options.window;
+  if (!only_compare || !setup.lab || !truth) return;
+  const double left = seconds(truth->end - run_time) / options.slam_rate;
+  const double count = std::floor(left * setup.lab->fps) - 1.0;
+  if (count < 1.0) return;
+  frames.skip(static_cast<std::uint64_t>(count));
+}
+
+FrameReport Monitor::State::frameReport() const {
+  FrameReport frame{.time_s = seconds(frame_time),
+                    .snapshot_time_s = {},
+                    .state = registration.state(),
+                    .registration = registered(),
+                    .overlay_errors_px = {},
+                    .slam_error_m = {},
+                    .tips = {},
+                    .judgement = {}};
+  if (audit) frame.judgement = audit->newest();
+  if (slam.newest()) frame.snapshot_time_s = seconds(slam.newest()->time);
+  if (!shown()) return frame;
+  const slam::Snapshot& snapshot = *slam.newest();
+  frame.ellipsoids = ellipsoidCount(picture.scene);
+  frame.features = picture.scene.cones.size() - 1;  // one is the robot's
+
+  Overlay overlay{.camera = camera.pinhole,
+                  .T_camera_map = picture.view.T_eye_scene,
+                  .true_T_camera_map = {},
+                  .map_scale = setup.map_scale};
+  if (setup.lab) {
+    overlay.true_T_camera_map = setup.lab->T_world_camera.inverse() * setup.lab->T_world_map;
+  }
+  measureOverlay(overlay, snapshot, frame);
+  return frame;
+}
+
+void Monitor::State::finish() {
+  if (!ever_registered && !setup.source->live() && (!setup.lab || frame_count > 0)) {
+    throw std::runtime_error(options.camera + ": never registered in " +
+                             std::to_string(frame_count) + " frames (" + registration.status() +
+                             ")");
+  }
+  if (output) output->finish();
+  if (!options.picture.empty()) writePicture(options.picture, pixels.front());
+  if (!options.compare.empty()) {
+    if (!start_picture) throw std::runtime_error("--compare: no ellipsoid was ever drawn");
+    writePicture(options.compare, sideBySide(*start_picture, pixels.front()));
+  }
+  if (!options.report.empty()) report.write(options.report);
+}
+
+}  // namespace slamscope::apps
