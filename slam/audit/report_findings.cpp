@@ -35,15 +35,15 @@ std::vector<Finding> findingsOf(const AuditReport& report) {
   return result;
 }
 
-std::string summaryOf(const AuditReport& report) {
-  std::string text = report.verdict == Verdict::inconclusive ? "too little to judge"
-                     : report.classes.empty()                ? "no law is broken"
-                                                             : "laws are broken";
-  text += ": " + std::to_string(report.records) +
-          " records from t = " + secondsText(report.first_time_s) + " to " +
-          secondsText(report.last_time_s) + ", level " + report.level +
-          ", numbers: " + report.precision;
-  return text;
+std::string_view verdictWords(const AuditReport& report) {
+  if (report.verdict == Verdict::inconclusive) return "too little to judge";
+  return report.classes.empty() ? "no law is broken" : "laws are broken";
+}
+
+std::string runWords(const AuditReport& report) {
+  return std::to_string(report.records) + " records from t = " + secondsText(report.first_time_s) +
+         " to " + secondsText(report.last_time_s) + ", level " + report.level +
+         ", numbers: " + report.precision;
 }
 
 }  // namespace slamscope::slam

@@ -85,14 +85,14 @@ std::string titleOf(FaultClass fault_class) {
   }
 }
 
+/// "Laws are broken: code fault, statistics"
 std::string headline(const AuditReport& report) {
-  if (report.verdict == Verdict::inconclusive) return "Too little to judge";
-  if (report.classes.empty()) return "No law is broken";
-  std::string text;
+  std::string text(verdictWords(report));
+  text[0] = static_cast<char>(text[0] - 'a' + 'A');
   for (const FaultClass c : report.classes) {
     std::string title = titleOf(c);
-    if (!text.empty()) title[0] = static_cast<char>(title[0] - 'A' + 'a');
-    text += (text.empty() ? "" : ", ") + title;
+    title[0] = static_cast<char>(title[0] - 'A' + 'a');
+    text.append(c == *report.classes.begin() ? ": " : ", ").append(title);
   }
   return text;
 }
@@ -170,7 +170,7 @@ std::string verdictHtml(const AuditReport& report) {
   std::string out("<section class=\"verdict ");
   out.append(gravity(report)).append("\" id=\"verdict\">\n");
   out.append(element("h1", "", headline(report))).append("\n");
-  out.append(element("p", "class=\"summary\"", summaryOf(report))).append("\n");
+  out.append(element("p", "class=\"summary\"", runWords(report))).append("\n");
   const auto list = [&](std::string_view label, const std::vector<std::string>& lines) {
     for (const std::string& line : lines) {
       out.append("<p class=\"likely\">").append(element("span", "class=\"label\"", label));
@@ -187,12 +187,16 @@ std::string verdictHtml(const AuditReport& report) {
   return out + "</section>\n";
 }
 
+std::string timesText(std::uint64_t count) {
+  return count == 1 ? "once" : std::to_string(count) + " times";
+}
+
 std::string lawRow(const LawReport& law) {
   const bool violated = law.status == LawStatus::violated;
   std::string status = violated ? "broken" : law.status == LawStatus::ok ? "ok" : "not checked";
   std::string detail;
   if (violated) detail.append("from ").append(recordLink(law)).append(", ");
-  if (law.checked > 0) detail += std::to_string(law.checked) + " records checked";
+  if (law.checked > 0) detail += "checked " + timesText(law.checked);
   if (law.status == LawStatus::not_checkable) detail = escaped(law.reason);
   std::string out("<tr class=\"");
   out.append(lawStatusName(law.status)).append("\"><th scope=\"row\">");

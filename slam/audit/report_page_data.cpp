@@ -140,6 +140,7 @@ class RecordWriter {
       json[name] = {number(vector[0]), number(vector[1]), number(vector[2])};
     }
     if (r.observed_given) json["o"] = r.observed;
+    if (r.observed_count > r.observed.size()) json["on"] = r.observed_count;
     if (r.stretch.dof > 0) {
       const auto [entry, fresh] = bands_.try_emplace(r.stretch.dof);
       if (fresh) entry->second = band(r.stretch.dof);

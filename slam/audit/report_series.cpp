@@ -57,6 +57,7 @@ SeriesRecord withoutMatrix(const Snapshot& s) {
   for (int k = 0; k < 3; ++k) record.variance[k] = s.covariance(k, k);
   record.feature_count = s.featureCount();
   record.observed_given = s.observed_given;
+  record.observed_count = s.observed.size();
   const std::size_t most = std::min(s.observed.size(), ReportSeries::kMostFeatures);
   record.observed.assign(s.observed.begin(),
                          s.observed.begin() + static_cast<std::ptrdiff_t>(most));

@@ -43,7 +43,8 @@ struct SeriesRecord {
   Eigen::Vector3d variance = Eigen::Vector3d::Zero();  ///< m², m², rad²
   int feature_count = 0;
   bool observed_given = false;
-  std::vector<FeatureId> observed;  ///< the first kMostFeatures
+  std::size_t observed_count = 0;
+  std::vector<FeatureId> observed;  ///< the first kMostFeatures of them
   SeriesStretch stretch;
 
   std::vector<FeatureId> ids;  ///< features of the matrix, in state order

@@ -112,7 +112,7 @@ void paragraph(std::string& out, const Finding& group) {
 
 std::string reportText(const AuditReport& report) {
   std::string out;
-  line(out, "audit", summaryOf(report));
+  line(out, "audit", std::string(verdictWords(report)) + ": " + runWords(report));
   for (const auto& group : findingsOf(report)) paragraph(out, group);
   for (const std::string& likely : report.likely) line(out, "likely", likely);
   for (const std::string& hint : report.hints) line(out, "perhaps meant", hint);

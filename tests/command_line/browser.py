@@ -94,8 +94,9 @@ class Browser:
         }})()""")
 
     def mouse(self, kind, x, y):
-        held = {} if kind == "mouseMoved" else {"button": "left", "clickCount": 1}
-        self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, buttons=0 if kind == "mouseReleased" else 1, **held)
+        """With the left button: mousePressed, mouseMoved (held), mouseReleased."""
+        self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1,
+                   buttons=0 if kind == "mouseReleased" else 1)
 
     def click(self, x, y):
         self.mouse("mousePressed", x, y)

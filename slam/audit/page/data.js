@@ -11,7 +11,11 @@ for (const record of kept) {
   sameClusters = record.k ??= sameClusters;
 }
 
-const blamedFrom = new Map(data.blamed.map(({id, first}) => [id, first]));
+// From the record where it was blamed first; of laws that speak of the whole run, from theirs.
+const blamedFrom = new Map(data.blamed.map(({id, first}) => {
+  const seen = kept.find((record) => record.b?.includes(id));
+  return [id, seen ? seen.n : first];
+}));
 const brokenLaws = data.laws.filter((law) => law.class);
 const firstBreak = Math.min(...brokenLaws.map((law) => law.first));  // Infinity where whole
 const allIds = [...new Set(kept.flatMap((record) => record.i))];

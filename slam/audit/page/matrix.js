@@ -5,7 +5,7 @@ class Matrix {
     this.figure = document.getElementById('matrix');
     this.box = this.figure.querySelector('.plot');
     this.value = html('span', {class: 'value'});
-    this.figure.querySelector('figcaption').append(html('b', {}, 'Relative covariance √det P_d, m²'), this.value);
+    this.figure.querySelector('figcaption').append(html('b', {}, 'Relative covariance √det P', html('sub', {}, 'd'), ', m²'), this.value);
     views.push(this);
   }
 
@@ -75,7 +75,7 @@ class Matrix {
     const stride = Math.ceil(14 / cell);
     const across = Math.ceil((8 + 7.5 * String(ids.at(-1)).length) / cell);
     ids.forEach((id, k) => {
-      const bad = isBlamed(record, id);
+      const bad = isBlamed(record, id) && record.i.includes(id);
       const style = bad ? {class: 'blamed'} : {};
       if (bad || k % stride === 0) {
         root.append(svg('text', {x: label - 5, y: (k + 0.5) * cell + 4, 'text-anchor': 'end', ...style}, String(id)));
@@ -99,10 +99,12 @@ class Matrix {
       root.append(svg('rect', {x, y: y + (k * height) / steps, width: 12, height: height / steps + 0.6,
         style: `fill: ${shade(10 ** (hi - ((k + 0.5) / steps) * span))}`}));
     }
-    for (const tick of logTicks(10 ** lo, 10 ** hi, height / 22)) {
+    const ticks = logTicks(10 ** lo, 10 ** hi, height / 22);
+    const texts = tickTexts(ticks);
+    ticks.forEach((tick, k) => {
       const at = y + ((hi - Math.log10(tick)) / span) * height;
-      root.append(svg('text', {x: x + 17, y: at + 4}, tickText(tick)));
-    }
+      root.append(svg('text', {x: x + 17, y: at + 4}, texts[k]));
+    });
   }
 
   legend(record) {
@@ -119,7 +121,7 @@ class Matrix {
     if (record.f > record.i.length) {
       parts.push(`${record.i.length} of ${record.f} features: the blamed ones and the largest; the other ${record.f - record.i.length} are left out. `);
     }
-    parts.push('Diagonal: √det P_ii. Click a cell to follow its pair.');
+    parts.push('Rows in the order of the state; diagonal: √det P', html('sub', {}, 'ii'), data.diagonal_only ? '.' : '. Click a cell to follow its pair.');
     this.figure.querySelector('.legend').replaceChildren(...parts);
   }
 }

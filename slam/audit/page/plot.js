@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A plot over the run: axes, cursor, hover and picking; what it shows is its `draw`.
-const kMargin = {left: 64, right: 14, top: 6, bottom: 38};
+const kMargin = {left: 68, right: 14, top: 6, bottom: 38};
 let chosen = 0;
 let picked = null;  // pair of features that was clicked in the matrix
 const views = [];   // each with draw() on a new size or pair, and choose() on a new record
@@ -24,7 +24,7 @@ function runAxis(width, y) {
     const time = timeAt(tick).toFixed(span < 2 ? 2 : span < 200 ? 1 : 0);
     axis.append(svg('text', {x: x(tick), y: y + 30, class: 'time'}, time));
   }
-  const name = {x: kMargin.left - 10, 'text-anchor': 'end'};
+  const name = {x: kMargin.left - 18, 'text-anchor': 'end'};
   axis.append(svg('text', {...name, y: y + 15}, 'record'), svg('text', {...name, y: y + 30}, 't in s'));
   return {axis, ticks};
 }
@@ -58,7 +58,7 @@ class Plot {
     this.figure = document.getElementById(name);
     this.box = this.figure.querySelector('.plot');
     this.height = height;
-    this.caption = html('b');
+    this.caption = html('b');  // with subscripts
     this.value = html('span', {class: 'value'});
     this.figure.querySelector('figcaption').append(this.caption, this.value);
     this.legend = this.figure.querySelector('.legend');
@@ -82,11 +82,13 @@ class Plot {
     for (const tick of ticks) {
       this.root.append(svg('path', {class: 'grid', d: `M${this.x(tick)} ${kMargin.top}V${bottom}`}));
     }
-    for (const tick of (log ? logTicks : linearTicks)(lo, hi, this.height / 32)) {
+    const rungs = (log ? logTicks : linearTicks)(lo, hi, this.height / 32);
+    const texts = tickTexts(rungs);
+    rungs.forEach((tick, k) => {
       const y = this.y(tick);
       this.root.append(svg('path', {class: 'grid', d: `M${kMargin.left} ${y}H${width - kMargin.right}`}));
-      this.root.append(svg('text', {x: kMargin.left - 6, y: y + 4, 'text-anchor': 'end'}, tickText(tick)));
-    }
+      this.root.append(svg('text', {x: kMargin.left - 6, y: y + 4, 'text-anchor': 'end'}, texts[k]));
+    });
     this.root.append(axis);
     this.inside = svg('g', {'clip-path': `url(#${clip})`});
     this.cursor = svg('path', {class: 'cursor'});
@@ -125,16 +127,6 @@ class Plot {
     this.legend.replaceChildren();
     this.box.replaceChildren(html('p', {class: 'legend'}, reason));
   }
-}
-
-function tickText(tick) {
-  const power = Math.log10(Math.abs(tick));
-  if (tick !== 0 && (power < -2 || power >= 5)) {
-    const [mantissa, exponent] = tick.toExponential().split('e');
-    const digits = Number(Number(mantissa).toPrecision(3));
-    return (digits === 1 ? '' : `${digits}·`) + `10${superscript(Number(exponent))}`;
-  }
-  return String(Number(tick.toPrecision(6)));
 }
 
 function extent(values, log) {

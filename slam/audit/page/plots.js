@@ -26,7 +26,7 @@ function pairLines() {
 class PairsPlot extends Plot {
   constructor() {
     super('pairs', 300);
-    this.caption.textContent = '√det P_d of feature pairs, m²';
+    this.caption.append('√det P', html('sub', {}, 'd'), ' of feature pairs, m²');
     this.lines = pairLines();
     // Clusters are numbered by their first member, so a pair of numbers is a line.
     this.clusters = [...new Set(kept.flatMap((r) => (r.g ?? []).map((g) => `${g[0]} ${g[1]}`)))].sort().slice(0, 6);
@@ -59,8 +59,21 @@ class PairsPlot extends Plot {
       for (const part of [2, 4]) this.path({class: 'edge', style}, (r) => this.groupAt(r, name)?.[part]);
       this.path({class: 'mean', style}, (r) => this.groupAt(r, name)?.[3]);
     });
+    this.nameClusters();
     if (picked) this.path({class: 'pair picked'}, (r) => sizeOf(r, ...picked));
     this.keys();
+  }
+
+  // At the line, so that nobody has to tell colours apart.
+  nameClusters() {
+    this.clusters.forEach((name, c) => {
+      const k = kept.findLastIndex((record) => this.groupAt(record, name)?.[3] > 0);
+      if (k < 0) return;
+      const [a, b] = name.split(' ').map((cluster) => Number(cluster) + 1);
+      const end = k === kept.length - 1;
+      this.inside.append(svg('text', {class: 'name', style: `fill: ${colour(c)}`, 'text-anchor': end ? 'end' : 'start',
+        x: this.x(placeOf(k)) + (end ? -4 - 34 * (c % 3) : 4), y: this.y(this.groupAt(kept[k], name)[3]) - 5}, a === b ? 'all' : `${a}–${b}`));
+    });
   }
 
   keys() {
@@ -72,6 +85,7 @@ class PairsPlot extends Plot {
     this.clusters.forEach((name, c) => keys.push(lineKey({class: 'mean', style: `stroke: ${colour(c)}`}, this.groupName(name))));
     if (this.clusters.length) keys.push(lineKey({class: 'edge', style: 'stroke: var(--soft)'}, 'their least and greatest (solid: mean)'));
     if (Number.isFinite(firstBreak)) keys.push(lineKey({class: 'break'}, `first break, record ${firstBreak}`));
+    if (kept.some((r) => r.f > r.i.length)) keys.push(`Lines part where a feature is not among the ${data.most_features} kept. `);
     if (picked) keys.push(lineKey({class: 'pair picked'}, `${picked[0]} and ${picked[1]}`));
     this.legend.replaceChildren(...keys);
   }
@@ -119,14 +133,14 @@ class NisPlot extends Plot {
     const log = most > 12;
     const bands = kept.map(({q}) => q?.[3] ?? 0);
     const [lo, hi] = log ? extent([...points.map((v) => Math.max(v, 0.02)), 3], true)
-                         : [0, Math.max(most, Math.min(6, bands.reduce((a, b) => Math.max(a, b))) * 1.05)];
+                         : [-0.15, Math.max(most, Math.min(6, bands.reduce((a, b) => Math.max(a, b))) * 1.05)];
     this.frame({lo, hi, log, name: 'normalised innovation squared over the run'});
     this.drawBand();
     this.inside.append(svg('path', {class: 'one', d: `M0 ${this.y(1)}H${this.width}`}));
     points.forEach((value, k) => {
       if (!Number.isFinite(value)) return;
       const [, , low, high] = kept[k].q;
-      const [x, y] = [this.x(placeOf(k)), this.y(Math.max(value, lo || 0))];
+      const [x, y] = [this.x(placeOf(k)), this.y(Math.max(value, lo))];
       this.inside.append(value < low || value > high
         ? svg('path', {class: 'outside', d: `M${x} ${y - 4.5}L${x + 4.5} ${y}L${x} ${y + 4.5}L${x - 4.5} ${y}Z`})
         : svg('circle', {class: 'inside', cx: x, cy: y, r: 1.8}));
@@ -159,7 +173,7 @@ class NisPlot extends Plot {
 class HeadingPlot extends Plot {
   constructor() {
     super('heading', 170);
-    this.caption.textContent = 'Variance of the heading P_θθ, rad²';
+    this.caption.append('Variance of the heading P', html('sub', {}, 'θθ'), ', rad²');
   }
 
   draw() {
@@ -171,7 +185,7 @@ class HeadingPlot extends Plot {
     }
     this.frame({lo: range[0], hi: range[1], log: true, name: 'variance of the heading over the run'});
     this.path({class: 'quantity'}, (r) => r.v[2]);
-    const keys = [lineKey({class: 'quantity'}, 'P_θθ')];
+    const keys = [lineKey({class: 'quantity'}, 'variance')];
     if (floor) {
       const y = this.y(floor);
       this.inside.append(svg('path', {class: 'floor', d: `M0 ${y}H${this.width}`}));

@@ -61,23 +61,38 @@ function linearTicks(lo, hi, most) {
   return ticks;
 }
 
-// Decades; 1, 2, 5 between them where there is room.
+// Decades, and what is between them where there is room.
 function logTicks(lo, hi, most) {
   const [first, last] = [Math.floor(Math.log10(lo)), Math.ceil(Math.log10(hi))];
-  const steps = last - first <= most / 3 ? [1, 2, 5] : last - first <= most / 2 ? [1, 3] : [1];
   const stride = Math.max(1, Math.ceil((last - first) / most));
-  const ticks = [];
-  for (let power = first; power <= last; power += stride) {
-    for (const m of steps) ticks.push(Number(`${m}e${power}`));
+  for (const steps of [[1, 2, 5], [1, 3], [1]]) {
+    const ticks = [];
+    for (let power = first; power <= last; power += stride) {
+      for (const m of steps) ticks.push(Number(`${m}e${power}`));
+    }
+    const inside = ticks.filter((tick) => tick >= lo * 0.999 && tick <= hi * 1.001);
+    if (inside.length < 2) break;
+    if (inside.length <= most + 1 || steps.length === 1) return inside;
   }
-  const inside = ticks.filter((tick) => tick >= lo * 0.999 && tick <= hi * 1.001);
-  return inside.length >= 2 ? inside : linearTicks(lo, hi, most);
+  return linearTicks(lo, hi, most);
 }
 
 function scale(lo, hi, from, to, log) {
   const f = log ? Math.log10 : (x) => x;
   const [a, b] = [f(lo), f(hi)];
   return (value) => from + ((f(value) - a) / (b - a || 1)) * (to - from);
+}
+
+// All of an axis in one manner.
+function tickTexts(ticks) {
+  const sizes = ticks.filter((tick) => tick !== 0).map(Math.abs);
+  const plain = sizes.every((size) => size >= 0.01 && size < 1e5);
+  return ticks.map((tick) => {
+    if (tick === 0 || plain) return String(Number(tick.toPrecision(6))).replace('-', '−');
+    const [mantissa, exponent] = tick.toExponential().split('e');
+    const digits = Number(Number(mantissa).toPrecision(3));
+    return (digits === 1 ? '' : `${digits}·`) + `10${superscript(Number(exponent))}`;
+  });
 }
 
 // A path through [x, y]; null parts it.

@@ -40,7 +40,7 @@ class TimeLine {
     kept.forEach((record, k) => {
       if (!record.l?.includes(index)) return;
       const from = this.x(placeOf(Math.max(0, k - 1)));
-      const to = Math.max(this.x(placeOf(k)), from + 2);
+      const to = Math.max(this.x(placeOf(k)), from + 3);
       d += `M${from.toFixed(1)} ${y}H${to.toFixed(1)}v${height}H${from.toFixed(1)}Z`;
     });
     if (law.class !== 'code' && rising) {
