@@ -21,7 +21,7 @@ class Browser:
         browser.value("document.title")
     """
 
-    def __init__(self, width=1400, height=1000, dark=False):
+    def __init__(self):
         self._profile = tempfile.TemporaryDirectory(prefix="slamscope-chromium-", ignore_cleanup_errors=True)
         # Chromium reads commands from descriptor 3 and answers on 4, each message ended by a NUL.
         commands, self._out = os.pipe()
@@ -43,15 +43,14 @@ class Browser:
         self._session = self._call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self._call(domain + ".enable")
-        self._call("Emulation.setDeviceMetricsOverride", width=width, height=height,
-                   deviceScaleFactor=1, mobile=False)
-        self._call("Emulation.setEmulatedMedia", features=[
-            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
+        self.close()
+
+    def close(self):
         os.close(self._out)
         try:
             self._chromium.wait(5)
@@ -61,7 +60,14 @@ class Browser:
         os.close(self._in)
         self._profile.cleanup()
 
-    def open(self, url):
+    def open(self, url, width=1400, height=1000, dark=False):
+        self._call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                   deviceScaleFactor=1, mobile=False)
+        self._call("Emulation.setEmulatedMedia", features=[
+            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        self._call("Page.navigate", url="about:blank")  # else another #place is no new page
+        self.until("document.readyState === 'complete'")
+        self.errors.clear()
         self.requests.clear()
         self._call("Page.navigate", url=url)
         self.until("document.readyState === 'complete'")

@@ -48,6 +48,8 @@ class AuditPageInBrowser(program.InAFolder):
     def setUpClass(cls):
         if browser.PATH is None:
             raise unittest.SkipTest("Chromium is not installed")
+        cls.browser = browser.Browser()
+        cls.addClassCleanup(cls.browser.close)
 
     def simulate(self, *words, name="run.jsonl"):
         self.assertEqual(self.run_here("simulate", *words, "-o", name)[0], 0)
@@ -57,12 +59,11 @@ class AuditPageInBrowser(program.InAFolder):
     def page(self, run, at="", **how):
         """The page of a run; whatever it does, nothing is fetched and nothing goes wrong."""
         self.assertIn(self.run_here("audit", run, "--quiet", "--html", "page.html")[0], (0, 1, 3))
-        with browser.Browser(**how) as page:
-            url = (self.folder / "page.html").as_uri() + at
-            page.open(url)
-            yield page
-            self.assertEqual(page.errors, [])
-            self.assertEqual(page.requests, [(self.folder / "page.html").as_uri()])
+        url = (self.folder / "page.html").as_uri()
+        self.browser.open(url + at, **how)
+        yield self.browser
+        self.assertEqual(self.browser.errors, [])
+        self.assertEqual(self.browser.requests, [url])
 
     def faulty(self):
         return self.simulate("--record", "all", "--fault", "paper", "--fault-features", 2, 8, 14)
@@ -201,10 +202,9 @@ class AuditPageInBrowser(program.InAFolder):
 
     def test_what_goes_wrong_would_be_seen(self):
         bad = self.write("bad.html", "<script>console.error('x'); nonesuch();</script><img src='none.png'>")
-        with browser.Browser() as page:
-            page.open(bad.as_uri())
-            self.assertGreaterEqual(len(page.errors), 2)
-            self.assertEqual(len(page.requests), 2)
+        self.browser.open(bad.as_uri())
+        self.assertGreaterEqual(len(self.browser.errors), 2)
+        self.assertEqual(len(self.browser.requests), 2)
 
 
 if __name__ == "__main__":
