@@ -52,12 +52,15 @@ std::string missing(Law law, bool every_event, bool diagonal_only) {
   }
 }
 
+/// Calls of apps/loggers/slamscope_log.*, the same in the three languages.
 std::vector<std::string> linesToL2() {
   return {
-      "log.predicted(x, P)              # after every prediction:     \"event\": \"predict\"",
-      "log.updated(x, P, observed_ids)  # after every update:         \"event\": \"update\", "
-      "\"observed\": [ids]",
-      "log.initialised(x, P)            # after every new feature:    \"event\": \"initialise\"",
+      "from slamscope_log import Log        # apps/loggers/slamscope_log.py, copied beside your filter",
+      "record = Log(\"run.jsonl\")           # MATLAB, Octave: record = slamscope_log('run.jsonl');",
+      "                                     # C++: slamscope::Log record(\"run.jsonl\");",
+      "record.predicted(x, P, t)            # after every prediction",
+      "record.updated(x, P, [ids])          # after every update: the features observed in it",
+      "record.initialised(x, P, [ids])      # after every new feature",
   };
 }
 
@@ -160,7 +163,7 @@ AuditReport Audit::State::report() const {
     report.hints.emplace_back(
         "--allow absolute-sensor, if the filter has a compass or another absolute sensor");
   }
-  if (!every_event && options.means_known) report.next_level = linesToL2();
+  if (!every_event) report.next_level = linesToL2();
   if (every_event && !innovations) report.next_level = linesToL3();
 
   const bool judged = std::any_of(report.laws.begin(), report.laws.end(), [](const LawReport& l) {
