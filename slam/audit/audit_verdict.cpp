@@ -55,8 +55,10 @@ std::string missing(Law law, bool every_event, bool diagonal_only) {
 /// Calls of apps/loggers/slamscope_log.*, the same in the three languages.
 std::vector<std::string> linesToL2() {
   return {
-      "from slamscope_log import Log        # apps/loggers/slamscope_log.py, copied beside your filter",
-      "record = Log(\"run.jsonl\")           # MATLAB, Octave: record = slamscope_log('run.jsonl');",
+      "from slamscope_log import Log        # apps/loggers/slamscope_log.py, copied beside your "
+      "filter",
+      "record = Log(\"run.jsonl\")           # MATLAB, Octave: record = "
+      "slamscope_log('run.jsonl');",
       "                                     # C++: slamscope::Log record(\"run.jsonl\");",
       "record.predicted(x, P, t)            # after every prediction",
       "record.updated(x, P, [ids])          # after every update: the features observed in it",
@@ -64,13 +66,17 @@ std::vector<std::string> linesToL2() {
   };
 }
 
-std::vector<std::string> linesToL3() {
-  return {
-      "in the header: \"R\": [[r11, r12], [r21, r22]] and \"sensor\": \"range-bearing\" or "
-      "\"relative-position\"",
-      "with updates:  \"observations\": [{\"id\": 4, \"z\": [..], \"innovation\": [..], \"S\": "
-      "[[..]], \"R\": [[..]], \"H\": [[..]]}]",
-  };
+std::vector<std::string> linesToL3(const RunHeader& header) {
+  std::vector<std::string> lines;
+  if (!header.R || header.sensor == Sensor::unknown) {
+    lines.emplace_back(
+        "record = Log(\"run.jsonl\", sensor=\"range-bearing\", R=R)   # or \"relative-position\"");
+  }
+  lines.emplace_back(
+      "record.updated(x, P, [id], observations=[{\"id\": id, \"z\": z, \"innovation\": nu, \"S\": "
+      "S, "
+      "\"R\": R, \"H\": H}])");
+  return lines;
 }
 
 void broken(LawReport& report, FaultClass fault_class) {
@@ -164,7 +170,7 @@ AuditReport Audit::State::report() const {
         "--allow absolute-sensor, if the filter has a compass or another absolute sensor");
   }
   if (!every_event) report.next_level = linesToL2();
-  if (every_event && !innovations) report.next_level = linesToL3();
+  if (every_event && !innovations) report.next_level = linesToL3(header);
 
   const bool judged = std::any_of(report.laws.begin(), report.laws.end(), [](const LawReport& l) {
     return l.checked > 0 && l.law != Law::finite && l.law != Law::symmetric &&

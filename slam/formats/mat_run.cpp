@@ -85,7 +85,7 @@ RunArrays ofColumns(Column P, std::optional<Column> x, std::size_t& places) {
   places = placesOf(x ? 0 : widest(P));
   // In Tim Bailey's simulator as many use it, the line that keeps x is commented out.
   const std::size_t kept = x ? filled(*x) : 0;
-  if (x && kept < arrays.steps && kept <= 1) {
+  if (x && x->size() >= arrays.steps && kept < arrays.steps && kept <= 1) {
     arrays.warnings.push_back("x was kept in " + std::to_string(kept) + " of " +
                               std::to_string(arrays.steps) + " steps only: means are unknown");
     x.reset();
