@@ -39,7 +39,7 @@ Directory findDirectory(const std::string& path, std::uint64_t file_size) {
   const std::uint64_t tail_size = std::min<std::uint64_t>(file_size, kEnd + 0xffff);
   const std::string tail = part(path, file_size - tail_size, tail_size);
   const std::size_t end = tail.rfind("PK\x05\x06");
-  if (end == tail.npos) {
+  if (end == tail.npos || end + kEnd > tail.size()) {
     const bool zip = part(path, 0, 4) == "PK\x03\x04";
     throw std::runtime_error(zip ? "it is cut off: the zip directory at its end is missing"
                                  : "expected a zip archive as np.savez writes it");
