@@ -55,14 +55,13 @@ std::string missing(Law law, bool every_event, bool diagonal_only) {
 /// Calls of apps/loggers/slamscope_log.*, the same in the three languages.
 std::vector<std::string> linesToL2() {
   return {
-      "from slamscope_log import Log        # apps/loggers/slamscope_log.py, copied beside your "
-      "filter",
-      "record = Log(\"run.jsonl\")           # MATLAB, Octave: record = "
-      "slamscope_log('run.jsonl');",
-      "                                     # C++: slamscope::Log record(\"run.jsonl\");",
-      "record.predicted(x, P, t)            # after every prediction",
-      "record.updated(x, P, [ids])          # after every update: the features observed in it",
-      "record.initialised(x, P, [ids])      # after every new feature",
+      R"(from slamscope_log import Log; record = Log("run.jsonl")   # Python)",
+      R"(record = slamscope_log('run.jsonl');                       % MATLAB, Octave)",
+      R"(slamscope::Log record("run.jsonl");                        // C++)",
+      R"(record.predicted(x, P, t)         after every prediction)",
+      R"(record.updated(x, P, [ids])       after every update: the features observed in it)",
+      R"(record.initialised(x, P, [ids])   after every new feature (lists in C++: {ids}))",
+      R"(The logger is one file to copy beside your filter: apps/loggers/slamscope_log.py, .m, .hpp)",
   };
 }
 
