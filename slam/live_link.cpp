@@ -14,16 +14,9 @@
 #include "slam/run_decoder.hpp"
 
 namespace slamscope::slam {
-namespace {
-
-constexpr std::size_t kChunk = std::size_t{64} << 10U;
-constexpr int kChunksAPoll = 64;  // 4 MiB, some 300 records of 15 features
-
-constexpr std::string_view kScheme = "tcp://";
-
 /// One stream of bytes from a filter.
-struct Source {
-  Source(Descriptor from, const std::string& name)
+struct LinkSource {
+  LinkSource(Descriptor from, const std::string& name)
       : descriptor(std::move(from)), decoder(name, RunDecoder::Runs::many) {}
 
   Descriptor descriptor;
@@ -31,9 +24,16 @@ struct Source {
   RunDecoder decoder;
 };
 
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{64} << 10U;
+constexpr int kChunksAPoll = 64;  // 4 MiB, some 300 records of 15 features
+
+constexpr std::string_view kScheme = "tcp://";
+
 enum class Read { data, nothing, end };
 
-Read readInto(Source& source) {
+Read readInto(LinkSource& source) {
   const auto room = source.lines.room(kChunk);
   const ssize_t size = ::read(source.descriptor.number(), room.data(), room.size());
   if (size > 0) source.lines.commit(static_cast<std::size_t>(size));
@@ -52,14 +52,14 @@ bool readable(int descriptor) {
 struct LiveLink::State {
   std::string name;
   Listener listener;
-  std::unique_ptr<Source> active;
-  std::unique_ptr<Source> pending;  ///< connected, but has sent nothing yet
+  std::unique_ptr<LinkSource> active;
+  std::unique_ptr<LinkSource> pending;  ///< connected, but has sent nothing yet
   LinkStatus status;
   std::uint64_t runs_before = 0;  ///< of earlier connections
   std::uint64_t equal_before = 0;
 
   void open(Descriptor descriptor) {
-    active = std::make_unique<Source>(std::move(descriptor), name);
+    active = std::make_unique<LinkSource>(std::move(descriptor), name);
     ++status.connections;
   }
 
@@ -112,7 +112,7 @@ struct LiveLink::State {
   /// Waits until something can be read. Whether the active source has something.
   void wait(std::chrono::milliseconds timeout) {
     std::array<pollfd, 3> wanted{};
-    const auto number = [](const std::unique_ptr<Source>& source) {
+    const auto number = [](const std::unique_ptr<LinkSource>& source) {
       return source ? source->descriptor.number() : -1;  // poll passes over negative ones
     };
     wanted[0] = {listener.socket.number(), POLLIN, 0};
@@ -125,7 +125,7 @@ struct LiveLink::State {
   void welcome() {
     if (!listener.socket) return;
     while (Descriptor connection = acceptFrom(listener)) {
-      pending = std::make_unique<Source>(std::move(connection), name);
+      pending = std::make_unique<LinkSource>(std::move(connection), name);
     }
     if (!pending) return;
     const Read read = readInto(*pending);

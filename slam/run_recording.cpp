@@ -11,10 +11,6 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-double seconds(nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
-
 EkfOptions filterOptions(const RecordingRunOptions& options) {
   if (!(options.sensor_sigma.minCoeff() > 0.0) || !(options.odometry_sigma.minCoeff() >= 0.0) ||
       !(options.initial_sigma.minCoeff() >= 0.0) || options.longest_prediction.count() <= 0) {

@@ -14,6 +14,11 @@ namespace slamscope::slam {
 
 using FeatureId = std::uint64_t;
 
+/// A time or a duration as a number of seconds.
+[[nodiscard]] inline double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
 /// What just happened to the posterior. `step`: everything of one time step at once.
 enum class Event { initial, predict, update, initialise, remove, step };
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double kTile = 0.5;                 // m
 constexpr double kJoint = 0.0025;             // half width of the joint between tiles, m
 constexpr int kTexels = 512;                  // of the marble pattern, which is 1 m wide
-constexpr double kField = 1.5, kTape = 0.05;  // half side of the field, width of its tape, m
+constexpr double kField = 1.5, kTapeWidth = 0.05;  // half side of the field, width of its tape, m
 
 float random01(std::uint64_t key) {
   return static_cast<float>(hash(key) >> 40) / 16777216.0F;
@@ -66,7 +66,7 @@ float Floor::marble(double x, double y) const {
 
 Floor::Sample Floor::at(const Eigen::Vector2d& p_world) const {
   const double edge = p_world.cwiseAbs().maxCoeff() - kField;
-  if (edge >= 0 && edge < kTape) {
+  if (edge >= 0 && edge < kTapeWidth) {
     const float wear = marble(2.3 * p_world.x(), 2.3 * p_world.y());
     return {.albedo = Eigen::Array3f(150, 92, 38) * (1 + 0.07F * wear), .tape = true};
   }

@@ -13,24 +13,24 @@
 #include "tracking/tag_corners.hpp"
 
 namespace slamscope::tracking {
-namespace {
-
-/// libapriltag puts the origin at the outer corner of the first pixel, OpenCV at its centre.
-constexpr double kHalfPixel = 0.5;
-
-struct Family {
+struct TagFamily {
   const char* name;
   apriltag_family_t* (*create)();
   void (*destroy)(apriltag_family_t*);
 };
 
-const Family& familyOf(std::string name) {
-  static constexpr Family kFamilies[] = {
+namespace {
+
+/// libapriltag puts the origin at the outer corner of the first pixel, OpenCV at its centre.
+constexpr double kHalfPixel = 0.5;
+
+const TagFamily& familyOf(std::string name) {
+  static constexpr TagFamily kFamilies[] = {
       {"36h11", tag36h11_create, tag36h11_destroy},
       {"25h9", tag25h9_create, tag25h9_destroy},
       {"Standard41h12", tagStandard41h12_create, tagStandard41h12_destroy}};
   if (name.starts_with("tag")) name.erase(0, 3);
-  for (const Family& family : kFamilies) {
+  for (const TagFamily& family : kFamilies) {
     if (name == family.name) return family;
   }
   if (name == "16h5") {
@@ -83,7 +83,7 @@ struct TagDetector::Impl {
   TagDetection convert(const apriltag_detection_t& found, const ImageView& grey) const;
 
   TagDetectorOptions options;
-  const Family& kind;
+  const TagFamily& kind;
   apriltag_family_t* family;
   apriltag_detector_t* detector;
   cv::Mat grey_picture;

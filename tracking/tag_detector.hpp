@@ -46,7 +46,7 @@ struct TagDetectorOptions {
   /// (corners are refined in the full picture either way).
   std::optional<double> quad_decimate = std::nullopt;
   bool refine = true;
-  int max_hamming = 1;     ///< of corrected bits: more let clutter through
+  int max_hamming = 2;     ///< bits corrected at most (36h11 differs in 11)
   double min_margin = 20;  ///< grey levels
   /// Sides of a tag bow under lens distortion: with the camera known, refinement allows for it.
   std::optional<CameraModel> camera = std::nullopt;

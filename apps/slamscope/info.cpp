@@ -19,9 +19,7 @@ std::string_view eventOf(std::size_t index) {
   return slam::eventName(static_cast<slam::Event>(index));
 }
 
-double seconds(std::chrono::nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
+using slam::seconds;
 
 nlohmann::ordered_json asJson(const slam::RunSummary& run) {
   nlohmann::ordered_json events = nlohmann::ordered_json::object();

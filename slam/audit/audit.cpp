@@ -26,10 +26,6 @@ constexpr std::array<std::string_view, 8> kAllowNames{"moving-features",
                                                       "iterated",
                                                       "diffuse-initialisation"};
 
-double seconds(const Snapshot& snapshot) {
-  return 1e-9 * static_cast<double>(snapshot.time.count());
-}
-
 bool sameSize(const Snapshot& a, const Snapshot& b) {
   return a.ids == b.ids && a.covariance.size() == b.covariance.size();
 }
@@ -99,7 +95,7 @@ void Audit::State::hint(const std::optional<std::string_view>& allow) {
 }
 
 void Audit::State::note(Law law, const Outcome& outcome, const Snapshot& snapshot) {
-  tallies[static_cast<std::size_t>(law)].take(outcome, snapshot.sequence, seconds(snapshot));
+  tallies[static_cast<std::size_t>(law)].take(outcome, snapshot.sequence, seconds(snapshot.time));
   if (!outcome.violated()) return;
   for (const Blame& b : outcome.blame) {
     const auto [entry, fresh] = blamed.try_emplace(b.feature);
@@ -117,8 +113,8 @@ void Audit::State::take(const SnapshotPtr& snapshot) {
     every_event = true;
   }
   if (repeatsLast(s)) return;
-  if (records++ == 0) first_time_s = seconds(s);
-  last_time_s = seconds(s);
+  if (records++ == 0) first_time_s = seconds(s.time);
+  last_time_s = seconds(s.time);
   diagonal_only = diagonal_only || s.diagonal_only;
   observed_given = observed_given || s.observed_given;
   extra = extra || !s.extra.empty();
@@ -166,7 +162,7 @@ bool Audit::State::judgeRecord(const Snapshot& s) {
       given.dof += 2;
       given.features.push_back({o.id, q, 2});
     }
-    if (!s.observations.front().S.isZero(0.0)) nis_given.take(given, {s.sequence, seconds(s)});
+    if (!s.observations.front().S.isZero(0.0)) nis_given.take(given, {s.sequence, seconds(s.time)});
   }
   return true;
 }

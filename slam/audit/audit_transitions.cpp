@@ -15,10 +15,6 @@
 namespace slamscope::slam {
 namespace {
 
-double seconds(const Snapshot& snapshot) {
-  return 1e-9 * static_cast<double>(snapshot.time.count());
-}
-
 constexpr const char* kExtraStates = "further states stand in the state vector";
 
 /// Every blamed feature stands in the map as one that was initialised in this very record: removed
@@ -76,6 +72,10 @@ void Audit::State::judgePrediction(const Transition& t) {
   note(Law::motion, motion.outcome, s);
   hint(motion.allow);
   if (motion.outcome.violated() || allows(Allow::inflation)) return;
+  if (allow_hints.contains("fej")) {
+    note(Law::process_noise, Outcome::notCheckable("F is not taken at the mean (--allow fej)"), s);
+    return;
+  }
   const LawTally& tally = tallies[static_cast<std::size_t>(Law::motion)];
   const bool whole =
       !motion.nearly && !motion.allow && tally.violations() == 0 && tally.checked() > 0;
@@ -103,10 +103,12 @@ void Audit::State::judgeUpdate(const Transition& t) {
   if (!s.extra.empty()) {
     note(Law::support, Outcome::notCheckable(kExtraStates), s);
     judgeShrink(t, false, true);
-    nis.take(estimateStepInnovation(t), {s.sequence, seconds(s)});
+    nis.take(estimateStepInnovation(t), {s.sequence, seconds(s.time)});
     return;
   }
   UpdateAnatomy anatomy = checkSupport(t, points);
+  const InnovationEstimate estimate = estimateInnovation(t, anatomy);
+  tellUsedTwice(estimate, anatomy);
   hint(anatomy.allow);
   for (const Allow allow :
        {Allow::robocentric, Allow::fej, Allow::iterated, Allow::absolute_sensor}) {
@@ -116,8 +118,7 @@ void Audit::State::judgeUpdate(const Transition& t) {
   note(Law::rank, checkRank(t, anatomy), s);
   judgeShrink(t, false, !anatomy.fit.whole);
   note(Law::range, checkRange(t, anatomy), s);
-  const InnovationEstimate estimate = estimateInnovation(t, anatomy);
-  nis.take(estimate, {s.sequence, seconds(s)});
+  nis.take(estimate, {s.sequence, seconds(s.time)});
   const bool given = !s.observations.empty() && !s.observations.front().R.isZero(0.0);
   if (header.R || given) {
     const Eigen::Matrix2d R = header.R ? *header.R : s.observations.front().R;
@@ -154,7 +155,7 @@ void Audit::State::judgeStep(const Transition& t) {
       note(Law::rank, anatomy.support, s);
     }
   }
-  nis.take(estimateStepInnovation(t), {s.sequence, seconds(s)});
+  nis.take(estimateStepInnovation(t), {s.sequence, seconds(s.time)});
 }
 
 }  // namespace slamscope::slam

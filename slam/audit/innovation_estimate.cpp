@@ -55,6 +55,22 @@ Eigen::Matrix2d projected(const Transition& t, const Eigen::MatrixXd& U, Eigen::
   return result;
 }
 
+/// S̃ − B̃ P⁻ B̃ᵀ is the noise of the observations and of the heading together; `cross` is the
+/// column of S̃ where heading and feature meet, `variance` its entry for the heading.
+double headingCorrelation(const Transition& t, const FeatureInnovation& one, int feature,
+                          const Eigen::Vector2d& delta, const Eigen::Vector2d& cross,
+                          double variance) {
+  const PackedCovariance& P = t.before->covariance;
+  const int l = Snapshot::row(feature);
+  const Eigen::Vector2d believed(P(l, 2) - P(0, 2) + delta.y() * P(2, 2),
+                                 P(l + 1, 2) - P(1, 2) - delta.x() * P(2, 2));
+  const Eigen::Vector2d noise = cross - believed;
+  const double heading = variance - P(2, 2);
+  const Eigen::LLT<Eigen::Matrix2d> R(one.R_map);
+  if (!(heading > 1e-6 * variance) || R.info() != Eigen::Success || one.R_error > 0.1) return 0.0;
+  return std::sqrt(noise.dot(R.solve(noise)) / heading);
+}
+
 }  // namespace
 
 InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& anatomy) {
@@ -101,6 +117,12 @@ InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& 
     one.R_map = S_i - projected(t, anatomy.basis.W, column, anatomy.observed[k], anatomy.deltas[k]);
     one.R_error = (1e-7 + 50.0 * t.noise / inverse.least) * S_i.trace() /
                   std::max(std::abs(one.R_map.trace()), 1e-300);
+    if (anatomy.heading_besides) {
+      const double correlation =
+          headingCorrelation(t, one, anatomy.observed[k], anatomy.deltas[k],
+                             S.block<2, 1>(column, lawful - 1), S(lawful - 1, lawful - 1));
+      estimate.heading_correlation = std::max(estimate.heading_correlation, correlation);
+    }
     estimate.features.push_back(one);
   }
   return estimate;

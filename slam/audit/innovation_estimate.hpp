@@ -23,6 +23,10 @@ struct InnovationEstimate {
   double nis = 0.0;  ///< Δxᵀ D⁺ Δx over the directions that stand out of the noise
   int dof = 0;
   std::vector<FeatureInnovation> features;
+  /// Where a heading comes besides: correlation of its noise with that of an observation, the
+  /// largest. A compass errs on its own: 0. An observation used again, with H at the mean that its
+  /// first use left, gives B_iᵀ + e_θ wᵀ anew: noise −w / (wᵀ R⁻¹ w), correlation 0.7.
+  double heading_correlation = 0.0;
 };
 
 /// Innovation and its covariance without instrumenting the filter. Over an update Δx = T w with

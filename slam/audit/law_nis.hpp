@@ -16,8 +16,8 @@ namespace slamscope::slam {
 /// half of `alpha` overall, half shared by the features. Statistics: noise mis-tuned, wrong
 /// association, a moved feature, or the innovation's code. Also used for `nis-given`.
 ///
-/// Band of the scale: overall 0.85 … 1.15, per feature 0.6 … 1.5. Means over runs of a correct filter
-/// were seen between 0.97 and 1.03, also from a start heading of σ = 0.2 rad.
+/// Band of the scale: overall 0.85 … 1.15, per feature 0.6 … 1.5. Means over runs of a correct
+/// filter were seen between 0.97 and 1.03, also from a start heading of σ = 0.2 rad.
 class NisLaw {
  public:
   explicit NisLaw(double alpha) : alpha_(alpha) {}

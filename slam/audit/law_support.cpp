@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "slam/audit/change_range.hpp"
+#include "slam/audit/innovation_estimate.hpp"
 #include "slam/audit/support_diagnosis.hpp"
 
 namespace slamscope::slam {
@@ -89,6 +90,16 @@ UpdateAnatomy checkSupport(const Transition& t, const LinearisationPoints& point
   }
   diagnoseSupport(t, points, anatomy);
   return anatomy;
+}
+
+void tellUsedTwice(const InnovationEstimate& estimate, UpdateAnatomy& anatomy) {
+  constexpr double kMost = 0.4;  // a compass: 0 but for rounding; used twice: 0.7
+  if (!anatomy.heading_besides || !(estimate.heading_correlation > kMost)) return;
+  anatomy.allow.reset();
+  anatomy.support = Outcome::of(estimate.heading_correlation, kMost);
+  anatomy.support.patterns.emplace_back("observed-twice");
+  anatomy.support.amount =
+      "P changes as if an observation were used again at the mean that its first use left";
 }
 
 UpdateAnatomy checkStepRank(const Transition& t) {

@@ -12,6 +12,8 @@
 
 namespace slamscope::slam {
 
+struct InnovationEstimate;
+
 /// What an update turned out to be: shared by the laws on updates.
 struct UpdateAnatomy {
   std::vector<int> observed;            ///< O, places among the shared features
@@ -40,6 +42,10 @@ struct UpdateAnatomy {
 /// Whole at the mean after the last prediction counts as whole (frozen linearisation).
 [[nodiscard]] UpdateAnatomy checkSupport(const Transition& transition,
                                          const LinearisationPoints& points);
+
+/// support again, once the innovations are known: a heading that comes with the noise of an
+/// observation is no compass, but that observation used twice.
+void tellUsedTwice(const InnovationEstimate& estimate, UpdateAnatomy& anatomy);
 
 /// rank at level L1 (`observed` given): D_m = P_mm⁻ − P_mm⁺ over a whole time step lies in the span
 /// of P⁻[−I, 0, I]ᵀ, i ∈ O, and P⁻e_θ: 2|O| + 1 vectors, wherever the filter linearised and however

@@ -34,7 +34,7 @@ void WhitenessLaw::take(const Snapshot& snapshot) {
       peak_ = std::max(peak_, top - std::log(static_cast<double>(logs_.size())));
       if (peak_ > std::log(1.0 / alpha_) && !first_record_) {
         first_record_ = snapshot.sequence;
-        first_time_s_ = 1e-9 * static_cast<double>(snapshot.time.count());
+        first_time_s_ = seconds(snapshot.time);
       }
     }
     last_[o.id] = w;

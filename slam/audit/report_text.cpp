@@ -11,13 +11,13 @@ namespace {
 constexpr std::size_t kLabel = 18;
 constexpr std::size_t kWidth = 100;
 
-std::string number(double value) {
+std::string numberText(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%+.4g", value);
   return text;
 }
 
-std::string seconds(double value) {
+std::string timeText(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.2f s", value);
   return text;
@@ -109,7 +109,7 @@ void paragraph(std::string& out, const std::vector<const LawReport*>& group) {
   for (const LawReport* law : group) names.emplace_back(lawName(law->law));
   std::string head = joined(names);
   if (first.first_time_s && first.first_record) {
-    head += "   from t = " + seconds(*first.first_time_s) + ", record " +
+    head += "   from t = " + timeText(*first.first_time_s) + ", record " +
             std::to_string(*first.first_record);
   }
   if (first.fault_class == FaultClass::code) {
@@ -131,7 +131,7 @@ void paragraph(std::string& out, const std::vector<const LawReport*>& group) {
   for (const LawReport* law : group) {
     for (const Evidence& e : law->evidence) {
       if (++shown > 6) return;
-      line(out, e.what, "yours " + number(e.given) + ", lawful " + number(e.lawful));
+      line(out, e.what, "yours " + numberText(e.given) + ", lawful " + numberText(e.lawful));
     }
   }
 }
@@ -141,8 +141,8 @@ std::string summary(const AuditReport& report) {
                      : report.classes.empty()                ? "no law is broken"
                                                              : "laws are broken";
   text += ": " + std::to_string(report.records) +
-          " records from t = " + seconds(report.first_time_s) + " to " +
-          seconds(report.last_time_s) + ", level " + report.level +
+          " records from t = " + timeText(report.first_time_s) + " to " +
+          timeText(report.last_time_s) + ", level " + report.level +
           ", numbers: " + report.precision;
   return text;
 }

@@ -12,7 +12,7 @@ namespace {
 /// Beyond this share outside of the span a filter is not just linearised in another way.
 constexpr double kNearly = 0.05;
 /// Rows that a span must leave over to prove anything.
-constexpr int kSpareRows = 3;
+constexpr int kSpareRows = 1;
 
 struct Candidate {
   std::string_view pattern;
@@ -53,17 +53,14 @@ std::vector<Candidate> candidates(const Transition& t, const LinearisationPoints
   return list;
 }
 
-/// The first candidate that explains the δ that was used.
-const Candidate* explain(const std::vector<Candidate>& list, const Eigen::Vector2d& used,
-                         const Eigen::Vector2d& lawful) {
-  for (const Candidate& candidate : list) {
-    if (!candidate.delta) continue;
-    const double off = (used - *candidate.delta).norm();
-    if (off <= candidate.tolerance * lawful.norm() && off < 0.5 * (used - lawful).norm()) {
-      return &candidate;
-    }
-  }
-  return nullptr;
+/// Whether the candidate explains the δ that was used; not where it is hardly another than the
+/// lawful one.
+bool explains(const Candidate& candidate, const Eigen::Vector2d& used,
+              const Eigen::Vector2d& lawful) {
+  if (!candidate.delta) return false;
+  const double off = (used - *candidate.delta).norm();
+  if (candidate.allow.empty() && off > 0.05 * (*candidate.delta - lawful).norm()) return false;
+  return off <= candidate.tolerance * lawful.norm() && off < 0.5 * (used - lawful).norm();
 }
 
 /// Features were written outside the update: their rows taken out, all is whole.
@@ -115,9 +112,9 @@ void blameShift(const Transition& t, int i, const Eigen::Vector2d& used,
 /// The Jacobian has the right form, but at other places of the features from the robot.
 bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
                          const ChangeRange& range, UpdateAnatomy& anatomy) {
-  std::optional<std::string_view> allow;
-  std::vector<std::string_view> patterns;
+  std::optional<std::vector<Candidate>> common;  // what explains every shift
   double farthest = 0.0;
+  Outcome shown = anatomy.support;
   for (std::size_t k = 0; k < anatomy.observed.size(); ++k) {
     const int i = anatomy.observed[k];
     const Eigen::Vector2d lawful = anatomy.deltas[k];
@@ -126,23 +123,28 @@ bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
     const double off = (*used - lawful).norm() / lawful.norm();
     farthest = std::max(farthest, off);
     if (off < 1e-5) continue;
-    const std::vector<Candidate> list = candidates(t, points, i, lawful);
-    const Candidate* found = explain(list, *used, lawful);
-    blameShift(t, i, *used, lawful, anatomy.support);
-    patterns.emplace_back(found != nullptr ? found->pattern : "linearised-elsewhere");
-    if (found != nullptr && !found->allow.empty()) allow = found->allow;
-    if (found == nullptr || found->allow.empty()) farthest = std::max(farthest, kNearly);
+    blameShift(t, i, *used, lawful, shown);
+    std::vector<Candidate> fitting = candidates(t, points, i, lawful);
+    std::erase_if(fitting, [&](const Candidate& c) { return !explains(c, *used, lawful); });
+    if (!common) {
+      common = std::move(fitting);
+      continue;
+    }
+    std::erase_if(*common, [&](const Candidate& c) {
+      return std::none_of(fitting.begin(), fitting.end(),
+                          [&](const Candidate& other) { return other.pattern == c.pattern; });
+    });
   }
-  std::sort(patterns.begin(), patterns.end());
-  patterns.erase(std::unique(patterns.begin(), patterns.end()), patterns.end());
-  const bool variant = allow && farthest < 0.5 && patterns.size() == 1;
-  if (variant) {
-    anatomy.allow = allow;
+  const Candidate* found = common && !common->empty() ? &common->front() : nullptr;
+  if (found == nullptr && farthest < kNearly) return false;  // explained by whoever asks next
+  if (found != nullptr && !found->allow.empty() && farthest < 0.5) {
+    anatomy.allow = found->allow;
     anatomy.support = Outcome::notCheckable(
-        "linearised elsewhere than at the mean, as with --allow " + std::string(*allow));
+        "linearised elsewhere than at the mean, as with --allow " + std::string(found->allow));
     return true;
   }
-  anatomy.support.patterns = patterns;
+  anatomy.support = std::move(shown);
+  anatomy.support.patterns.emplace_back(found != nullptr ? found->pattern : "linearised-elsewhere");
   anatomy.support.amount = "the observation Jacobian was not taken at the mean before the update";
   return true;
 }

@@ -72,8 +72,11 @@ std::string_view levelName(Level level) {
 
 double rounded(double value, Precision precision) {
   switch (precision) {
-    case Precision::float32:
-      return static_cast<double>(static_cast<float>(value));
+    case Precision::float32: {
+      // volatile: g++ 12 leaves both conversions out where it vectorises two of them.
+      volatile const float single = static_cast<float>(value);
+      return static_cast<double>(single);
+    }
     case Precision::text6:
       return sixDigits(value);
     default:

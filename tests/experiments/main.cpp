@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   audit->add_option("--fault", faults.faults, "only these faults");
   audit->add_option("--healthy", healthy.runs, "runs of correct filters")->capture_default_str();
   audit->add_option("--first", healthy.first, "number of the first of them")->capture_default_str();
+  audit->add_option("--variant", variants.only, "only this lawful variant");
   audit->add_option("--variants", variants.runs, "runs of each lawful variant")
       ->capture_default_str();
   audit->add_option("--alpha", healthy.alpha, "family-wise error of the statistical laws")

@@ -43,7 +43,7 @@ TEST(LogPrecision, KnowsFixedDecimals) {
 TEST(LogPrecision, OnlyGetsFiner) {
   LogPrecision precision;
   precision.take(std::vector<double>{0.0, 0.04, 0.25});
-  EXPECT_GT(precision.relative(), 1e-3);
+  EXPECT_EQ(precision.name(), "unknown");  // round numbers, as at a start
   precision.take(randomNumbers(17));
   EXPECT_TRUE(precision.isDouble());
   precision.take(randomNumbers(6));

@@ -92,7 +92,7 @@ TEST(AuditNames, AreReadBack) {
   }
   EXPECT_THROW(static_cast<void>(allowFromName("nonesuch")), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(faultClassFromName("nonesuch")), std::invalid_argument);
-  EXPECT_THROW(Audit({.alpha = 0.0}), std::invalid_argument);
+  EXPECT_THROW(Audit({.allow = {}, .alpha = 0.0}), std::invalid_argument);
 }
 
 }  // namespace

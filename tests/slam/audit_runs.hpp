@@ -25,7 +25,11 @@ struct AuditLog {
 };
 
 inline double rounded(double value, int digits) {
-  if (digits == 8) return static_cast<double>(static_cast<float>(value));
+  if (digits == 8) {
+    // volatile: g++ 12 leaves both conversions out where it vectorises two of them.
+    volatile const float single = static_cast<float>(value);
+    return static_cast<double>(single);
+  }
   char text[40];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return std::strtod(text, nullptr);

@@ -27,9 +27,7 @@ namespace {
 using std::chrono::nanoseconds;
 using tracking::RegistrationState;
 
-double seconds(nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
+using slam::seconds;
 
 /// Milliseconds since it was made or last asked.
 class StopWatch {

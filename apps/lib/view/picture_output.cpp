@@ -30,6 +30,13 @@ void requireFolder(const fs::path& target) {
   }
 }
 
+/// Where a file is written before it is whole: hidden, beside its place.
+fs::path partialFor(const fs::path& target) {
+  std::string name = target.stem().string();
+  name.insert(0, 1, '.').append(".partial").append(target.extension().string());
+  return target.parent_path() / name;
+}
+
 /// `name-%05d.png` split at its number.
 class NumberedPngs : public PictureOutput {
  public:
@@ -53,9 +60,9 @@ class NumberedPngs : public PictureOutput {
 class Video : public PictureOutput {
  public:
   Video(fs::path target, double frames_per_second)
-      : target_(std::move(target)), partial_(target_), frames_per_second_(frames_per_second) {
-    partial_.replace_filename("." + target_.stem().string() + ".partial.mp4");
-  }
+      : target_(std::move(target)),
+        partial_(partialFor(target_)),
+        frames_per_second_(frames_per_second) {}
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
   ~Video() override {
@@ -117,12 +124,11 @@ std::unique_ptr<PictureOutput> openPictureOutput(const fs::path& target, double 
 
 void writePicture(const fs::path& file, const engine::Image& picture) {
   requireFolder(file);
-  fs::path partial = file;
   const std::string ending = file.extension().string();
   if (ending != ".png" && ending != ".jpg") {
     throw std::runtime_error(file.string() + ": a picture is NAME.png or NAME.jpg");
   }
-  partial.replace_filename("." + file.stem().string() + ".partial" + ending);
+  const fs::path partial = partialFor(file);
   // The lowest compression: a frame's time matters more than a third of its bytes.
   bool written = false;
   try {
