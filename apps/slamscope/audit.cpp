@@ -37,7 +37,14 @@ constexpr const char* kFooter =
     "  slamscope audit run.jsonl.zst\n"
     "  slamscope audit run.jsonl --junit audit.xml --fail-on code      one line in CI\n"
     "  slamscope audit run.jsonl --html audit.html                     a page for a bug report\n"
+    "  slamscope audit run.npz                   x and P of each step, saved from Python\n"
     "  your_filter | slamscope audit -\n"
+    "\n"
+    "Runs: .jsonl, .jsonl.zst; .npz, .npy (NumPy); .mat (MATLAB, Octave: cells, stacks, or a "
+    "struct\n"
+    "array with fields x and P); a directory of MRPT's kf-slam. Without a record of every event "
+    "they\n"
+    "prove less: the report says what to add; loggers are in apps/loggers.\n"
     "\n"
     "Classes of evidence: code (an exact law is broken: a programming fault), statistics (noise,\n"
     "association, a moved feature), linearisation (the EKF's own inconsistency; never fails by\n"
@@ -64,6 +71,7 @@ int audit(const AuditFlags& flags) {
   }
 
   slam::RunReader reader(flags.run);
+  options.means_known = reader.header().means_known;
   slam::Audit judge(options, reader.header());
   slam::ReportSeries series;
   {
@@ -91,7 +99,9 @@ void addAudit(CLI::App& program) {
   CLI::App* verb = program.add_subcommand(
       "audit", "check a run by the laws that a correct EKF-SLAM obeys; name the feature at fault");
   verb->footer(kFooter);
-  verb->add_option("RUN", flags->run, "run to judge (.jsonl, .jsonl.zst; - is standard input)")
+  verb->add_option("RUN", flags->run,
+                   "run to judge (.jsonl, .jsonl.zst, .npz, .npy, .mat, MRPT's directory; - is "
+                   "standard input)")
       ->required();
   verb->add_option("--json", flags->json, "the report as JSON");
   verb->add_option("--junit", flags->junit, "the report as JUnit XML, a test case a law");
