@@ -6,7 +6,7 @@
 
 namespace slamscope::slam {
 
-std::string secondsText(double time_s) {
+std::string timeText(double time_s) {
   char text[40];
   std::snprintf(text, sizeof text, "%.2f s", time_s);
   return text;
@@ -41,8 +41,8 @@ std::string_view verdictWords(const AuditReport& report) {
 }
 
 std::string runWords(const AuditReport& report) {
-  return std::to_string(report.records) + " records from t = " + secondsText(report.first_time_s) +
-         " to " + secondsText(report.last_time_s) + ", level " + report.level +
+  return std::to_string(report.records) + " records from t = " + timeText(report.first_time_s) +
+         " to " + timeText(report.last_time_s) + ", level " + report.level +
          ", numbers: " + report.precision;
 }
 

@@ -23,6 +23,6 @@ using Finding = std::vector<const LawReport*>;
 [[nodiscard]] std::string runWords(const AuditReport& report);
 
 /// "6.10 s"
-[[nodiscard]] std::string secondsText(double time_s);
+[[nodiscard]] std::string timeText(double time_s);
 
 }  // namespace slamscope::slam

@@ -15,7 +15,7 @@
 namespace slamscope::slam {
 namespace {
 
-std::string escaped(std::string_view text) {
+std::string escapedHtml(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
@@ -55,14 +55,14 @@ std::string inScript(std::string_view json) {
 }
 
 /// <name attributes>text</name>, the text escaped.
-std::string element(std::string_view name, std::string_view attributes, std::string_view text) {
+std::string tagged(std::string_view name, std::string_view attributes, std::string_view text) {
   std::string out("<");
   out.append(name);
   if (!attributes.empty()) out.append(" ").append(attributes);
-  return out.append(">").append(escaped(text)).append("</").append(name).append(">");
+  return out.append(">").append(escapedHtml(text)).append("</").append(name).append(">");
 }
 
-std::string number(double value) {
+std::string signedText(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%+.4g", value);
   return text;
@@ -71,10 +71,10 @@ std::string number(double value) {
 std::string recordLink(const LawReport& law) {
   if (!law.first_record) return {};
   const std::string record = std::to_string(*law.first_record);
-  return element("a", "href=\"#record=" + record + "\"", "record " + record);
+  return tagged("a", "href=\"#record=" + record + "\"", "record " + record);
 }
 
-std::string titleOf(FaultClass fault_class) {
+std::string classTitle(FaultClass fault_class) {
   switch (fault_class) {
     case FaultClass::code:
       return "Code fault";
@@ -90,7 +90,7 @@ std::string headline(const AuditReport& report) {
   std::string text(verdictWords(report));
   text[0] = static_cast<char>(text[0] - 'a' + 'A');
   for (const FaultClass c : report.classes) {
-    std::string title = titleOf(c);
+    std::string title = classTitle(c);
     title[0] = static_cast<char>(title[0] - 'A' + 'a');
     text.append(c == *report.classes.begin() ? ": " : ", ").append(title);
   }
@@ -112,13 +112,13 @@ std::string blameHtml(const LawReport& law) {
     char share[40];
     std::snprintf(share, sizeof share, "%.0f %%", 100.0 * law.blame[k].share);
     out.append(" <span class=\"feature\">")
-        .append(element("b", "", std::to_string(law.blame[k].feature)));
-    if (law.blame.size() > 1) out.append(" ").append(element("small", "", share));
+        .append(tagged("b", "", std::to_string(law.blame[k].feature)));
+    if (law.blame.size() > 1) out.append(" ").append(tagged("small", "", share));
     out += "</span>";
   }
   if (law.blame.size() > kMost) {
     const std::string left_out = std::to_string(law.blame.size() - kMost);
-    out.append(" ").append(element("small", "", "and " + left_out + " more"));
+    out.append(" ").append(tagged("small", "", "and " + left_out + " more"));
   }
   return out + "</p>\n";
 }
@@ -127,8 +127,9 @@ std::string evidenceHtml(const Finding& finding) {
   std::string rows;
   for (const LawReport* law : finding) {
     for (const Evidence& e : law->evidence) {
-      rows.append("<tr>").append(element("th", "scope=\"row\"", e.what));
-      rows += element("td", "", number(e.given)) + element("td", "", number(e.lawful)) + "</tr>\n";
+      rows.append("<tr>").append(tagged("th", "scope=\"row\"", e.what));
+      rows += tagged("td", "", signedText(e.given)) + tagged("td", "", signedText(e.lawful)) +
+              "</tr>\n";
     }
   }
   if (rows.empty()) return {};
@@ -141,14 +142,14 @@ std::string findingHtml(const Finding& finding) {
   const LawReport& first = *finding[0];
   std::string out("<article class=\"finding ");
   out.append(faultClassName(*first.fault_class)).append("\">\n<h2>");
-  out += escaped(titleOf(*first.fault_class));
+  out += escapedHtml(classTitle(*first.fault_class));
   for (const LawReport* law : finding) {
-    const std::string title = "title=\"" + escaped(lawWords(law->law)) + "\"";
-    out.append(" ").append(element("code", title, lawName(law->law)));
+    const std::string title = "title=\"" + escapedHtml(lawWords(law->law)) + "\"";
+    out.append(" ").append(tagged("code", title, lawName(law->law)));
   }
   out += "</h2>\n<p class=\"when\">";
   if (first.first_time_s) {
-    out.append("from t = ").append(secondsText(*first.first_time_s)).append(", ");
+    out.append("from t = ").append(timeText(*first.first_time_s)).append(", ");
   }
   out += recordLink(first);
   if (first.fault_class == FaultClass::code) {
@@ -161,7 +162,7 @@ std::string findingHtml(const Finding& finding) {
   for (const LawReport* law : finding) {
     if (law->amount.empty() || law->amount == said) continue;
     said = law->amount;
-    out += element("p", "", law->amount) + "\n";
+    out += tagged("p", "", law->amount) + "\n";
   }
   return out + evidenceHtml(finding) + "</article>\n";
 }
@@ -169,12 +170,12 @@ std::string findingHtml(const Finding& finding) {
 std::string verdictHtml(const AuditReport& report) {
   std::string out("<section class=\"verdict ");
   out.append(gravity(report)).append("\" id=\"verdict\">\n");
-  out.append(element("h1", "", headline(report))).append("\n");
-  out.append(element("p", "class=\"summary\"", runWords(report))).append("\n");
+  out.append(tagged("h1", "", headline(report))).append("\n");
+  out.append(tagged("p", "class=\"summary\"", runWords(report))).append("\n");
   const auto list = [&](std::string_view label, const std::vector<std::string>& lines) {
     for (const std::string& line : lines) {
-      out.append("<p class=\"likely\">").append(element("span", "class=\"label\"", label));
-      out.append(" ").append(escaped(line)).append("</p>\n");
+      out.append("<p class=\"likely\">").append(tagged("span", "class=\"label\"", label));
+      out.append(" ").append(escapedHtml(line)).append("</p>\n");
     }
   };
   list("likely", report.likely);
@@ -197,12 +198,12 @@ std::string lawRow(const LawReport& law) {
   std::string detail;
   if (violated) detail.append("from ").append(recordLink(law)).append(", ");
   if (law.checked > 0) detail += "checked " + timesText(law.checked);
-  if (law.status == LawStatus::not_checkable) detail = escaped(law.reason);
+  if (law.status == LawStatus::not_checkable) detail = escapedHtml(law.reason);
   std::string out("<tr class=\"");
   out.append(lawStatusName(law.status)).append("\"><th scope=\"row\">");
-  out.append(element("code", "", lawName(law.law))).append("</th>");
-  out.append(element("td", "class=\"status\"", status));
-  out.append(element("td", "", lawWords(law.law)));
+  out.append(tagged("code", "", lawName(law.law))).append("</th>");
+  out.append(tagged("td", "class=\"status\"", status));
+  out.append(tagged("td", "", lawWords(law.law)));
   return out.append("<td>").append(detail).append("</td></tr>\n");
 }
 
@@ -213,8 +214,8 @@ std::string lawsHtml(const AuditReport& report) {
 }
 
 /// Fills the {{slots}}; what is filled in is not looked at again.
-std::string filled(std::string_view page,
-                   std::initializer_list<std::pair<std::string_view, std::string>> slots) {
+std::string withSlots(std::string_view page,
+                      std::initializer_list<std::pair<std::string_view, std::string>> slots) {
   std::string out;
   while (true) {
     const std::size_t open = page.find("{{");
@@ -233,15 +234,15 @@ std::string filled(std::string_view page,
 
 std::string reportHtml(const AuditReport& report, const ReportSeries& series,
                        std::string_view run_name) {
-  return filled(pageDocument(), {{"run", escaped(run_name)},
-                                 {"headline", escaped(headline(report))},
-                                 {"style", std::string(pageStyle())},
-                                 {"verdict", verdictHtml(report)},
-                                 {"laws", lawsHtml(report)},
-                                 {"text", escaped(reportText(report))},
-                                 {"report", inScript(reportJson(report))},
-                                 {"data", inScript(pageData(report, series, run_name))},
-                                 {"script", std::string(pageScript())}});
+  return withSlots(pageDocument(), {{"run", escapedHtml(run_name)},
+                                    {"headline", escapedHtml(headline(report))},
+                                    {"style", std::string(pageStyle())},
+                                    {"verdict", verdictHtml(report)},
+                                    {"laws", lawsHtml(report)},
+                                    {"text", escapedHtml(reportText(report))},
+                                    {"report", inScript(reportJson(report))},
+                                    {"data", inScript(pageData(report, series, run_name))},
+                                    {"script", std::string(pageScript())}});
 }
 
 }  // namespace slamscope::slam

@@ -18,11 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 6> kEvents{"initial",     "prediction", "update",
-                                                  "new feature", "removal",    "time step"};
+constexpr std::array<std::string_view, 6> kEventWords{"initial",     "prediction", "update",
+                                                      "new feature", "removal",    "time step"};
 
 /// Six digits are more than a plot shows; JSON has no word for what is not finite.
-Json number(double value) {
+Json plotNumber(double value) {
   if (!std::isfinite(value)) return nullptr;
   char text[40];
   std::snprintf(text, sizeof text, "%.6g", value);
@@ -80,11 +80,12 @@ std::string base64(const std::vector<float>& sizes, const Range& range) {
 }
 
 /// Where 99 % of χ² per degree of freedom lie.
-Json band(int dof) {
-  return {number(chiSquareQuantile(0.995, dof) / dof), number(chiSquareQuantile(0.005, dof) / dof)};
+Json chiSquareBand(int dof) {
+  return {plotNumber(chiSquareQuantile(0.995, dof) / dof),
+          plotNumber(chiSquareQuantile(0.005, dof) / dof)};
 }
 
-Json lawsJson(const AuditReport& report) {
+Json lawsOfPage(const AuditReport& report) {
   Json laws = Json::array();
   for (const LawReport& law : report.laws) {
     Json json{{"name", lawName(law.law)}, {"words", lawWords(law.law)}};
@@ -122,7 +123,7 @@ Json headingJson(const AuditReport& report, const std::vector<SeriesRecord>& rec
     return std::isfinite(r.variance[2]);
   });
   if (law.checked > 0 && finite != records.end())
-    json["floor"] = number(0.99 * finite->variance[2]);
+    json["floor"] = plotNumber(0.99 * finite->variance[2]);
   return json;
 }
 
@@ -132,19 +133,19 @@ class RecordWriter {
 
   Json write(const SeriesRecord& r) {
     Json json{{"n", r.record},
-              {"t", number(r.time_s)},
-              {"e", kEvents.at(static_cast<std::size_t>(r.event))},
+              {"t", plotNumber(r.time_s)},
+              {"e", kEventWords.at(static_cast<std::size_t>(r.event))},
               {"f", r.feature_count},
               {"c", r.stretch.records}};
     for (const auto& [name, vector] : {std::pair{"p", r.pose}, std::pair{"v", r.variance}}) {
-      json[name] = {number(vector[0]), number(vector[1]), number(vector[2])};
+      json[name] = {plotNumber(vector[0]), plotNumber(vector[1]), plotNumber(vector[2])};
     }
     if (r.observed_given) json["o"] = r.observed;
     if (r.observed_count > r.observed.size()) json["on"] = r.observed_count;
     if (r.stretch.dof > 0) {
       const auto [entry, fresh] = bands_.try_emplace(r.stretch.dof);
-      if (fresh) entry->second = band(r.stretch.dof);
-      json["q"] = {number(r.stretch.nis), r.stretch.dof, entry->second[0], entry->second[1]};
+      if (fresh) entry->second = chiSquareBand(r.stretch.dof);
+      json["q"] = {plotNumber(r.stretch.nis), r.stretch.dof, entry->second[0], entry->second[1]};
     }
     for (std::size_t law = 0; law < r.stretch.broken.size(); ++law) {
       if (r.stretch.broken[law]) json["l"].push_back(law);
@@ -155,7 +156,8 @@ class RecordWriter {
     if (r.cluster != cluster_) json["k"] = cluster_ = r.cluster;
     json["m"] = base64(r.sizes, range_);
     for (const ClusterSizes& c : r.clusters) {
-      json["g"].push_back({c.a, c.b, number(c.least), number(c.mean), number(c.greatest)});
+      json["g"].push_back(
+          {c.a, c.b, plotNumber(c.least), plotNumber(c.mean), plotNumber(c.greatest)});
     }
     return json;
   }
@@ -179,7 +181,7 @@ std::string pageData(const AuditReport& report, const ReportSeries& series,
             {"means_known", !report.level.starts_with("LC")},
             {"diagonal_only", series.diagonalOnly()},
             {"most_features", ReportSeries::kMostFeatures},
-            {"laws", lawsJson(report)},
+            {"laws", lawsOfPage(report)},
             {"blamed", blamedJson(report)},
             {"heading", headingJson(report, records)},
             {"range", {range.lo, range.hi}},

@@ -13,11 +13,11 @@
 namespace slamscope::slam {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float kUnknownSize = std::numeric_limits<float>::quiet_NaN();
 
 /// √det; NaN where not finite, −1 where not positive.
 float sizeOf(const Eigen::Matrix2d& covariance) {
-  if (!covariance.allFinite()) return kUnknown;
+  if (!covariance.allFinite()) return kUnknownSize;
   const Eigen::Vector2d values = principalAxes(covariance).eigenvalues;
   return values[1] < 0.0 ? -1.0F : static_cast<float>(std::sqrt(values[0] * values[1]));
 }
@@ -51,7 +51,7 @@ ClusterSizes wholeMap(const Snapshot& snapshot) {
 SeriesRecord withoutMatrix(const Snapshot& s) {
   SeriesRecord record;
   record.record = s.sequence;
-  record.time_s = 1e-9 * static_cast<double>(s.time.count());
+  record.time_s = seconds(s.time);
   record.event = s.event;
   record.pose = s.pose;
   for (int k = 0; k < 3; ++k) record.variance[k] = s.covariance(k, k);
@@ -118,7 +118,7 @@ void ReportSeries::keepLast(bool pinned) {
   for (std::size_t a = 0; a < chosen.size(); ++a) {
     record.ids.push_back(s.ids[static_cast<std::size_t>(chosen[a])]);
     for (std::size_t b = 0; b < a; ++b) {
-      record.sizes.push_back(s.diagonal_only ? kUnknown
+      record.sizes.push_back(s.diagonal_only ? kUnknownSize
                                              : sizeOf(relativeCovariance(s, chosen[b], chosen[a])));
     }
     record.sizes.push_back(ownSize(s, chosen[a]));

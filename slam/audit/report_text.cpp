@@ -81,7 +81,7 @@ void paragraph(std::string& out, const Finding& group) {
   for (const LawReport* law : group) names.emplace_back(lawName(law->law));
   std::string head = joined(names);
   if (first.first_time_s && first.first_record) {
-    head += "   from t = " + secondsText(*first.first_time_s) + ", record " +
+    head += "   from t = " + timeText(*first.first_time_s) + ", record " +
             std::to_string(*first.first_record);
   }
   if (first.fault_class == FaultClass::code) {
