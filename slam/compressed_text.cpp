@@ -62,7 +62,7 @@ RunFormat runFormat(const std::string& path) {
   }
   const auto ending = std::filesystem::path(path).extension().string();
   throw std::runtime_error(path + ": " + (ending.empty() ? "a name without ending" : ending) +
-                           " is not supported; runs end in .jsonl or .jsonl.zst");
+                           " is not supported; runs are written as .jsonl or .jsonl.zst");
 }
 
 struct TextInput::State {

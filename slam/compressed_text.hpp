@@ -9,11 +9,11 @@
 
 namespace slamscope::slam {
 
-/// How a run is stored: the ending of its name says so.
+/// How a run is written: the ending of its name says so.
 enum class RunFormat { json_lines, json_lines_zst };
 
-/// From the ending (`.jsonl`, `.jsonl.zst`). Throws std::runtime_error that lists the supported
-/// endings, and says that others are not supported yet.
+/// From the ending (`.jsonl`, `.jsonl.zst`). Throws std::runtime_error that lists the endings that
+/// can be written; openRun reads more of them.
 [[nodiscard]] RunFormat runFormat(const std::string& path);
 
 /// Bytes of a file, unpacked where its content is zstd (whatever its name). Pipes can be read too;

@@ -17,6 +17,7 @@ using json::Value;
 
 constexpr std::array<std::string_view, 6> kEvents{"initial",    "predict", "update",
                                                   "initialise", "remove",  "step"};
+constexpr std::array<std::string_view, 2> kMeans{"known", "unknown"};
 constexpr std::array<std::string_view, 3> kSensors{"unknown", "range-bearing", "relative-position"};
 
 template <std::size_t Size>
@@ -149,6 +150,8 @@ void readHeader(std::string_view key, Value& value, RunHeader& header) {
     header.R = json::symmetric(value, key, 2);
   } else if (key == "Q") {
     header.Q = json::symmetric(value, key, 3);
+  } else if (key == "means") {
+    header.means_known = oneOf(kMeans, json::text(value, key), key) == 0;
   }
 }
 

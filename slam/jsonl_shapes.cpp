@@ -2,35 +2,12 @@
 #include "slam/jsonl_shapes.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace slamscope::slam::json {
 namespace {
 
 std::string plural(std::size_t count, const std::string& word) {
   return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
-}
-
-/// Lower triangle of n×n numbers row by row; the worst |P − Pᵀ| beside it. A number that is NaN on
-/// one side only is asymmetric beyond measure.
-std::vector<double> lowerOf(const std::vector<double>& full, std::size_t n, double& asymmetry) {
-  std::vector<double> packed;
-  packed.reserve(n * (n + 1) / 2);
-  asymmetry = 0.0;
-  for (std::size_t row = 0; row < n; ++row) {
-    for (std::size_t col = 0; col <= row; ++col) {
-      const double below = full[row * n + col];
-      const double above = full[col * n + row];
-      packed.push_back(below);
-      if (std::isnan(below) != std::isnan(above)) {
-        asymmetry = std::numeric_limits<double>::infinity();
-      } else if (below != above && std::abs(below - above) > asymmetry) {
-        asymmetry = std::abs(below - above);
-      }
-    }
-  }
-  return packed;
 }
 
 bool isRagged(const Numbers& read, std::size_t n) {
@@ -83,7 +60,7 @@ void setCovariance(Snapshot& snapshot, const Shapes& shapes) {
     snapshot.covariance = PackedCovariance(size, std::vector<double>(read.values));
   } else if (read.values.size() == n * n && (read.rows.empty() || read.rowsOf(n))) {
     double asymmetry = 0.0;
-    snapshot.covariance = PackedCovariance(size, lowerOf(read.values, n, asymmetry));
+    snapshot.covariance = PackedCovariance::fromFull(size, read.values, asymmetry);
     snapshot.asymmetry = std::max(asymmetry, snapshot.asymmetry.value_or(0.0));
   } else {
     const std::string side = std::to_string(n);

@@ -183,6 +183,7 @@ std::string formatHeader(const RunHeader& header) {
     text.put(", \"Q\": ");
     text.rows(*header.Q);
   }
+  if (!header.means_known) text.put(R"(, "means": "unknown")");
   text.put('}');
   return line;
 }

@@ -1,61 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "slam/run_decoder.hpp"
 
-#include <algorithm>
 #include <stdexcept>
-#include <unordered_map>
 
 namespace slamscope::slam {
 namespace {
 
 bool isBlank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == line.npos;
-}
-
-bool mayAdd(Event event) {
-  return event == Event::initial || event == Event::initialise || event == Event::step;
-}
-
-bool mayRemove(Event event) {
-  return event == Event::remove || event == Event::step;
-}
-
-[[noreturn]] void failIds(FeatureId id, std::string_view change, const Snapshot& next,
-                          std::string_view events) {
-  throw std::runtime_error("ids: feature " + std::to_string(id) + " " + std::string(change) +
-                           " in a record of event " + std::string(eventName(next.event)) +
-                           ", expected that of " + std::string(events) + " only");
-}
-
-/// Positions of the survivors must rise, unless the event moved them (a removal may fill the gap
-/// with the last feature).
-void checkIds(const Snapshot& last, const Snapshot& next) {
-  if (last.ids == next.ids) return;
-  std::unordered_map<FeatureId, std::size_t> before;
-  for (std::size_t k = 0; k < last.ids.size(); ++k) before.emplace(last.ids[k], k);
-  std::size_t survivors = 0;
-  std::optional<FeatureId> displaced;
-  std::size_t position = 0;
-  for (const FeatureId id : next.ids) {
-    const auto found = before.find(id);
-    if (found == before.end()) {
-      if (!mayAdd(next.event)) failIds(id, "appears", next, "initial, initialise or step");
-      continue;
-    }
-    if (survivors++ != 0 && found->second < position) displaced = id;
-    position = found->second;
-  }
-  const bool removed = survivors < last.ids.size();
-  if (removed && !mayRemove(next.event)) {
-    const auto gone = std::find_if(last.ids.begin(), last.ids.end(), [&](FeatureId id) {
-      return std::find(next.ids.begin(), next.ids.end(), id) == next.ids.end();
-    });
-    failIds(*gone, "is gone", next, "remove or step");
-  }
-  if (displaced && !removed) {
-    throw std::runtime_error("ids: expected the order of the record before, found feature " +
-                             std::to_string(*displaced) + " in another place");
-  }
 }
 
 }  // namespace
@@ -75,13 +27,12 @@ SnapshotPtr RunDecoder::decode(std::string_view line) {
       return nullptr;
     }
     auto next = std::make_shared<Snapshot>(parser_.record(line, run_records_));
-    const bool again = allowed_ == Runs::many && next->event == Event::initial && last_;
+    const bool again = allowed_ == Runs::many && next->event == Event::initial && !order_.empty();
     if (!begun_ || again) begin(header_);
-    if (last_) checkOrder(*next);
+    order_.take(next);
     ++records_;
     ++run_records_;
-    last_ = std::move(next);
-    return last_;
+    return next;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(source_ + ":" + std::to_string(lines_) + ": " + error.what());
   }
@@ -89,21 +40,10 @@ SnapshotPtr RunDecoder::decode(std::string_view line) {
 
 void RunDecoder::begin(const RunHeader& header) {
   header_ = header;
-  last_ = nullptr;
+  order_.restart();
   run_records_ = 0;
   begun_ = true;
   ++runs_;
-}
-
-void RunDecoder::checkOrder(const Snapshot& next) {
-  if (next.time < last_->time) {
-    throw std::runtime_error("time: expected at least " + std::to_string(last_->time.count()) +
-                             " ns as in the record before, found " +
-                             std::to_string(next.time.count()) + " ns");
-  }
-  checkIds(*last_, next);
-  const bool whole_step = next.event == Event::step || next.event == Event::predict;
-  if (next.time == last_->time && next.event == last_->event && whole_step) ++equal_stamps_;
 }
 
 }  // namespace slamscope::slam

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "slam/jsonl.hpp"
+#include "slam/run_order.hpp"
 
 namespace slamscope::slam {
 
-/// Turns the lines of one run into snapshots, one by one, and holds the run to its order: time
-/// never goes back; ids keep their order; features come with `initial`, `initialise` or `step`
-/// and go with `remove` or `step` only. What breaks that is unreadable (std::runtime_error,
-/// "source:line: field: what was expected, what was found") and leaves the state as it was.
+/// Turns the lines of one run into snapshots, one by one, and holds the run to its order
+/// (RunOrder). What breaks that is unreadable (std::runtime_error, "source:line: field: what was
+/// expected, what was found") and leaves the state as it was.
 /// The header may be missing: the first line is then a record.
 class RunDecoder {
  public:
@@ -30,25 +30,23 @@ class RunDecoder {
   [[nodiscard]] bool begun() const { return begun_; }           ///< header or first record was read
   [[nodiscard]] std::uint64_t lines() const { return lines_; }  ///< seen so far
   [[nodiscard]] std::uint64_t records() const { return records_; }  ///< read so far
-  /// Pairs of neighbouring `step` (or `predict`) records with the same time: readable, but odd.
-  [[nodiscard]] std::uint64_t equalStamps() const { return equal_stamps_; }
+  /// As RunOrder::equalStamps.
+  [[nodiscard]] std::uint64_t equalStamps() const { return order_.equalStamps(); }
   [[nodiscard]] std::uint64_t runs() const { return runs_; }
 
  private:
   void begin(const RunHeader& header);
-  void checkOrder(const Snapshot& next);
 
   std::string source_;
   Runs allowed_;
   LineParser parser_;
   RunHeader header_;
-  SnapshotPtr last_;
+  RunOrder order_;
   bool begun_ = false;  ///< header or first record seen
   std::uint64_t runs_ = 0;
   std::uint64_t lines_ = 0;
   std::uint64_t records_ = 0;
   std::uint64_t run_records_ = 0;  ///< of this run
-  std::uint64_t equal_stamps_ = 0;
 };
 
 }  // namespace slamscope::slam

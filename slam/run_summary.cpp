@@ -22,6 +22,13 @@ bool hasMeans(const Snapshot& snapshot) {
                      [&](const Eigen::Vector2d& point) { return known(point.x()); });
 }
 
+bool isFinite(const Snapshot& snapshot, bool means_known) {
+  if (means_known) return snapshot.finite();
+  const auto packed = snapshot.covariance.packed();
+  return std::all_of(packed.begin(), packed.end(),
+                     [](double value) { return std::isfinite(value); });
+}
+
 /// The table of levels; see RunLevel.
 RunLevel levelOf(const RunSummary& summary, const Evidence& evidence) {
   if (summary.records == 0) return RunLevel::L1;
@@ -40,7 +47,9 @@ void add(RunSummary& summary, Evidence& evidence, const Snapshot& snapshot) {
   summary.features_at_end = snapshot.featureCount();
   summary.features_at_most = std::max(summary.features_at_most, snapshot.featureCount());
   if (!snapshot.extra.empty()) summary.extra = snapshot.extra;
-  if (!summary.first_not_finite && !snapshot.finite()) summary.first_not_finite = summary.records;
+  if (!summary.first_not_finite && !isFinite(snapshot, summary.header.means_known)) {
+    summary.first_not_finite = summary.records;
+  }
   if (snapshot.asymmetry) {
     summary.worst_asymmetry = std::max(summary.worst_asymmetry.value_or(0.0), *snapshot.asymmetry);
   }
@@ -64,13 +73,13 @@ std::string RunSummary::levelName() const {
 
 RunSummary summarize(RunReader& reader) {
   RunSummary summary;
+  summary.header = reader.header();
   Evidence evidence;
   std::unordered_set<FeatureId> features;
   while (const auto snapshot = reader.next()) {
     add(summary, evidence, **snapshot);
     features.insert((*snapshot)->ids.begin(), (*snapshot)->ids.end());
   }
-  summary.header = reader.header();
   summary.different_features = features.size();
   summary.level = levelOf(summary, evidence);
   summary.warnings = reader.warnings();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace slamscope::slam {
@@ -32,6 +33,27 @@ PackedCovariance PackedCovariance::fromLower(const Eigen::Ref<const Eigen::Matri
     for (int col = 0; col <= row; ++col) result.packed_[k++] = P(row, col);
   }
   return result;
+}
+
+PackedCovariance PackedCovariance::fromFull(int size, std::span<const double> full,
+                                            double& asymmetry) {
+  const auto n = static_cast<std::size_t>(size);
+  std::vector<double> packed;
+  packed.reserve(packedSize(size));
+  asymmetry = 0.0;
+  for (std::size_t row = 0; row < n; ++row) {
+    for (std::size_t col = 0; col <= row; ++col) {
+      const double below = full[row * n + col];
+      const double above = full[col * n + row];
+      packed.push_back(below);
+      if (std::isnan(below) != std::isnan(above)) {
+        asymmetry = std::numeric_limits<double>::infinity();
+      } else if (below != above && std::abs(below - above) > asymmetry) {
+        asymmetry = std::abs(below - above);
+      }
+    }
+  }
+  return {size, std::move(packed)};
 }
 
 Eigen::Matrix2d PackedCovariance::block2(int row, int col) const {

@@ -32,6 +32,10 @@ class PackedCovariance {
   PackedCovariance(int size, std::vector<double> packed);
   /// Reads the lower triangle only.
   [[nodiscard]] static PackedCovariance fromLower(const Eigen::Ref<const Eigen::MatrixXd>& P);
+  /// The lower triangle of size×size numbers, row by row; `asymmetry` becomes the worst |P − Pᵀ|.
+  /// A number that is NaN on one side only is asymmetric beyond measure.
+  [[nodiscard]] static PackedCovariance fromFull(int size, std::span<const double> full,
+                                                 double& asymmetry);
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] double operator()(int row, int col) const { return packed_[index(row, col)]; }
@@ -109,6 +113,8 @@ struct RunHeader {
   std::string robot;
   std::optional<Eigen::Matrix2d> R;  ///< constant observation noise, where known
   std::optional<Eigen::Matrix3d> Q;  ///< constant process noise, where known
+  /// False where only covariances were logged (level LC): poses and features are then NaN.
+  bool means_known = true;
 };
 
 }  // namespace slamscope::slam

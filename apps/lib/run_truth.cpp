@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "apps/lib/drawable_run.hpp"
 #include "slam/angle.hpp"
-#include "slam/run_reader.hpp"
 
 namespace slamscope::apps {
 namespace {
@@ -33,7 +33,7 @@ struct TruePath {
 }  // namespace
 
 std::optional<RunTruth> truthOfRun(const std::string& path) {
-  slam::RunReader reader(path);
+  slam::RunReader reader = openDrawable(path);
   RunTruth truth;
   const auto true_path = std::make_shared<TruePath>();
   bool first = true;

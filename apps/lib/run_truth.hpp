@@ -21,7 +21,7 @@ struct RunTruth {
 };
 
 /// Reads a run through to its end for its truth; nothing where it carries none. Throws as
-/// RunReader.
+/// openDrawable.
 [[nodiscard]] std::optional<RunTruth> truthOfRun(const std::string& path);
 
 /// The same of a simulation, without running its filter.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/lib/slam_feed.hpp"
 
+#include "apps/lib/drawable_run.hpp"
 #include "slam/live_link.hpp"
 #include "slam/replay.hpp"
 
@@ -12,7 +13,7 @@ using std::chrono::nanoseconds;
 class RecordedFeed : public SlamFeed {
  public:
   explicit RecordedFeed(const std::string& path)
-      : replay_(slam::RunReader(path)), start_(replay_.nextTime()) {
+      : replay_(openDrawable(path)), start_(replay_.nextTime()) {
     if (!start_) throw std::runtime_error(path + ": the run has no records");
   }
   slam::Subject& subject() override { return replay_; }

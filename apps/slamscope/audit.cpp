@@ -13,8 +13,10 @@
 
 #include "apps/lib/progress.hpp"
 #include "apps/slamscope/verbs.hpp"
+#include "slam/audit/report_html.hpp"
 #include "slam/audit/report_json.hpp"
 #include "slam/audit/report_junit.hpp"
+#include "slam/audit/report_series.hpp"
 #include "slam/audit/report_text.hpp"
 #include "slam/run_reader.hpp"
 
@@ -23,7 +25,7 @@ namespace {
 
 struct AuditFlags {
   std::string run;
-  std::string json, junit;
+  std::string json, junit, html;
   std::vector<std::string> allow;
   std::vector<std::string> fail_on{"code", "statistics"};
   double alpha = 1e-3;
@@ -34,7 +36,15 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  slamscope audit run.jsonl.zst\n"
     "  slamscope audit run.jsonl --junit audit.xml --fail-on code      one line in CI\n"
+    "  slamscope audit run.jsonl --html audit.html                     a page for a bug report\n"
+    "  slamscope audit run.npz                   x and P of each step, saved from Python\n"
     "  your_filter | slamscope audit -\n"
+    "\n"
+    "Runs: .jsonl, .jsonl.zst; .npz, .npy (NumPy); .mat (MATLAB, Octave: cells, stacks, or a "
+    "struct\n"
+    "array with fields x and P); a directory of MRPT's kf-slam. Without a record of every event "
+    "they\n"
+    "prove less: the report says what to add; loggers are in apps/loggers.\n"
     "\n"
     "Classes of evidence: code (an exact law is broken: a programming fault), statistics (noise,\n"
     "association, a moved feature), linearisation (the EKF's own inconsistency; never fails by\n"
@@ -42,7 +52,8 @@ constexpr const char* kFooter =
     "absolute-sensor, inflation, robocentric, fej, frozen-linearisation, iterated,\n"
     "diffuse-initialisation.\n"
     "\n"
-    "Exit status: 0 nothing of --fail-on; 1 something; 2 the run can't be read; 3 too little to judge.";
+    "Exit status: 0 nothing of --fail-on; 1 something; 2 the run can't be read; 3 too little to "
+    "judge.";
 
 void writeFile(const std::string& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
@@ -60,12 +71,15 @@ int audit(const AuditFlags& flags) {
   }
 
   slam::RunReader reader(flags.run);
+  options.means_known = reader.header().means_known;
   slam::Audit judge(options, reader.header());
+  slam::ReportSeries series;
   {
     Progress progress("auditing " + flags.run);
     std::uint64_t records = 0;
     while (const auto snapshot = reader.next()) {
       judge.take(*snapshot);
+      if (!flags.html.empty()) series.take(*snapshot, judge.lastRecord());
       progress.show(std::to_string(++records) + " records");
     }
   }
@@ -73,6 +87,7 @@ int audit(const AuditFlags& flags) {
   const slam::AuditReport report = judge.report();
   if (!flags.json.empty()) writeFile(flags.json, slam::reportJson(report));
   if (!flags.junit.empty()) writeFile(flags.junit, slam::reportJunit(report, flags.run, fail_on));
+  if (!flags.html.empty()) writeFile(flags.html, slam::reportHtml(report, series, flags.run));
   if (!flags.quiet) std::fputs(slam::reportText(report).c_str(), stdout);
   return slam::exitStatus(report, fail_on);
 }
@@ -84,10 +99,13 @@ void addAudit(CLI::App& program) {
   CLI::App* verb = program.add_subcommand(
       "audit", "check a run by the laws that a correct EKF-SLAM obeys; name the feature at fault");
   verb->footer(kFooter);
-  verb->add_option("RUN", flags->run, "run to judge (.jsonl, .jsonl.zst; - is standard input)")
+  verb->add_option("RUN", flags->run,
+                   "run to judge (.jsonl, .jsonl.zst, .npz, .npy, .mat, MRPT's directory; - is "
+                   "standard input)")
       ->required();
   verb->add_option("--json", flags->json, "the report as JSON");
   verb->add_option("--junit", flags->junit, "the report as JUnit XML, a test case a law");
+  verb->add_option("--html", flags->html, "the report as a page with plots, for a browser");
   verb->add_option("--allow", flags->allow, "laws that the filter breaks by design, see below")
       ->delimiter(',');
   verb->add_option("--fail-on", flags->fail_on,

@@ -18,8 +18,13 @@ void addConvert(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb =
       program.add_subcommand("convert", "write a run in another format, by its ending");
-  verb->footer("Example: slamscope convert run.jsonl run.jsonl.zst");
-  verb->add_option("A", options->from, "run to read (.jsonl, .jsonl.zst)")->required();
+  verb->footer(
+      "Examples:\n"
+      "  slamscope convert run.jsonl run.jsonl.zst\n"
+      "  slamscope convert run.mat run.jsonl");
+  verb->add_option("A", options->from,
+                   "run to read (.jsonl, .jsonl.zst, .npz, .npy, .mat, MRPT's directory)")
+      ->required();
   verb->add_option("B", options->to, "run to write (.jsonl, .jsonl.zst)")->required();
   verb->callback([options] {
     slam::RunReader reader(options->from);

@@ -72,8 +72,16 @@ void addInfo(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb =
       program.add_subcommand("info", "what is in a run: steps, features, duration, level");
-  verb->footer("Example: slamscope info run.jsonl.zst");
-  verb->add_option("RUN", options->run, "run to read (.jsonl, .jsonl.zst)")->required();
+  verb->footer(
+      "Examples:\n"
+      "  slamscope info run.jsonl.zst\n"
+      "  slamscope info run.mat --json\n"
+      "\n"
+      "Runs: .jsonl, .jsonl.zst; .npz, .npy (NumPy); .mat (MATLAB, Octave); a directory of MRPT's "
+      "kf-slam.");
+  verb->add_option("RUN", options->run,
+                   "run to read (.jsonl, .jsonl.zst, .npz, .npy, .mat, MRPT's directory)")
+      ->required();
   verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options] {
     slam::RunReader reader(options->run);

@@ -60,9 +60,9 @@ void addCameraFlags(CLI::App& verb, MonitorFlags& flags) {
 void addSlamFlags(CLI::App& verb, MonitorFlags& flags) {
   const std::string group = "SLAM";
   MonitorOptions& rest = flags.rest;
-  verb.add_option(
-          "--slam", rest.slam,
-          "simulate, a run (.jsonl, .jsonl.zst), - (standard input) or tcp://HOST:PORT (listens)")
+  verb.add_option("--slam", rest.slam,
+                  "simulate, a run (.jsonl, .jsonl.zst, .npz, .npy, .mat), - (standard input) or "
+                  "tcp://HOST:PORT (listens)")
       ->group(group);
   verb.add_option("--slam-rate", rest.slam_rate, "seconds of the run per second of the camera")
       ->check(CLI::PositiveNumber)

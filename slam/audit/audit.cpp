@@ -97,7 +97,12 @@ void Audit::State::hint(const std::optional<std::string_view>& allow) {
 void Audit::State::note(Law law, const Outcome& outcome, const Snapshot& snapshot) {
   tallies[static_cast<std::size_t>(law)].take(outcome, snapshot.sequence, seconds(snapshot.time));
   if (!outcome.violated()) return;
+  newest.broken.push_back(law);
   for (const Blame& b : outcome.blame) {
+    if (!std::binary_search(newest.features.begin(), newest.features.end(), b.feature)) {
+      newest.features.insert(
+          std::lower_bound(newest.features.begin(), newest.features.end(), b.feature), b.feature);
+    }
     const auto [entry, fresh] = blamed.try_emplace(b.feature);
     if (fresh) {
       entry->second.alarm = {b.feature, law, snapshot.sequence, true, std::nullopt};
@@ -105,6 +110,14 @@ void Audit::State::note(Law law, const Outcome& outcome, const Snapshot& snapsho
     }
     entry->second.last_update = updates;
   }
+}
+
+void Audit::State::noteInnovation(const InnovationEstimate& estimate, const Snapshot& snapshot) {
+  const bool stood_out = nis.firstBroken().has_value();
+  nis.take(estimate, {snapshot.sequence, seconds(snapshot.time)});
+  newest.nis = estimate.nis;
+  newest.dof = estimate.dof;
+  if (nis.firstBroken() && !stood_out) newest.broken.push_back(Law::nis);
 }
 
 void Audit::State::take(const SnapshotPtr& snapshot) {
@@ -115,6 +128,8 @@ void Audit::State::take(const SnapshotPtr& snapshot) {
   if (repeatsLast(s)) return;
   if (records++ == 0) first_time_s = seconds(s.time);
   last_time_s = seconds(s.time);
+  newest = {};
+  newest.judged = records;
   diagonal_only = diagonal_only || s.diagonal_only;
   observed_given = observed_given || s.observed_given;
   extra = extra || !s.extra.empty();
@@ -185,6 +200,10 @@ Subscription Audit::listen(Subject& subject) {
 
 AuditReport Audit::report() const {
   return state_->report();
+}
+
+const RecordFindings& Audit::lastRecord() const {
+  return state_->newest;
 }
 
 Alarms Audit::alarms() const {

@@ -64,6 +64,15 @@ struct Alarms {
   std::vector<Law> broken;             ///< laws broken at least once so far
 };
 
+/// What the newest record alone added, for plots along the run.
+struct RecordFindings {
+  std::uint64_t judged = 0;         ///< records judged so far, this one included
+  double nis = 0.0;                 ///< of its update, χ² with `dof` degrees of freedom
+  int dof = 0;                      ///< 0 where nothing could be measured
+  std::vector<Law> broken;          ///< by this record; statistical laws where they first stand out
+  std::vector<FeatureId> features;  ///< blamed for it, by id
+};
+
 /// Judges a filter by the laws that a correct EKF-SLAM obeys (spec audit.md), from its snapshots
 /// alone. Memory: O(N²), independent of the number of records.
 ///
@@ -96,6 +105,8 @@ class Audit {
   [[nodiscard]] AuditReport report() const;
   /// Features and pairs to mark in the picture after the newest record.
   [[nodiscard]] Alarms alarms() const;
+  /// What the newest record added. A record that was passed over leaves it as it was.
+  [[nodiscard]] const RecordFindings& lastRecord() const;
 
  private:
   struct State;

@@ -63,6 +63,8 @@ struct Audit::State {
   std::map<FeatureId, Blamed> blamed;
   [[nodiscard]] bool isActive(const Blamed& b) const { return updates <= b.last_update + 1; }
 
+  RecordFindings newest;
+
   void take(const SnapshotPtr& snapshot);
   /// False where the record is not finite.
   bool judgeRecord(const Snapshot& snapshot);
@@ -79,6 +81,7 @@ struct Audit::State {
   /// Error of an entry of P of this record, scaled by √diag.
   [[nodiscard]] double recordNoise(const Snapshot& snapshot) const;
   void note(Law law, const Outcome& outcome, const Snapshot& snapshot);
+  void noteInnovation(const InnovationEstimate& estimate, const Snapshot& snapshot);
   void hint(const std::optional<std::string_view>& allow);
   [[nodiscard]] AuditReport report() const;
 };

@@ -103,7 +103,7 @@ void Audit::State::judgeUpdate(const Transition& t) {
   if (!s.extra.empty()) {
     note(Law::support, Outcome::notCheckable(kExtraStates), s);
     judgeShrink(t, false, true);
-    nis.take(estimateStepInnovation(t), {s.sequence, seconds(s.time)});
+    noteInnovation(estimateStepInnovation(t), s);
     return;
   }
   UpdateAnatomy anatomy = checkSupport(t, points);
@@ -118,7 +118,7 @@ void Audit::State::judgeUpdate(const Transition& t) {
   note(Law::rank, checkRank(t, anatomy), s);
   judgeShrink(t, false, !anatomy.fit.whole);
   note(Law::range, checkRange(t, anatomy), s);
-  nis.take(estimate, {s.sequence, seconds(s.time)});
+  noteInnovation(estimate, s);
   const bool given = !s.observations.empty() && !s.observations.front().R.isZero(0.0);
   if (header.R || given) {
     const Eigen::Matrix2d R = header.R ? *header.R : s.observations.front().R;
@@ -155,7 +155,7 @@ void Audit::State::judgeStep(const Transition& t) {
       note(Law::rank, anatomy.support, s);
     }
   }
-  nis.take(estimateStepInnovation(t), {s.sequence, seconds(s.time)});
+  noteInnovation(estimateStepInnovation(t), s);
 }
 
 }  // namespace slamscope::slam

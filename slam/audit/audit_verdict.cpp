@@ -52,22 +52,30 @@ std::string missing(Law law, bool every_event, bool diagonal_only) {
   }
 }
 
+/// Calls of apps/loggers/slamscope_log.*, the same in the three languages.
 std::vector<std::string> linesToL2() {
   return {
-      "log.predicted(x, P)              # after every prediction:     \"event\": \"predict\"",
-      "log.updated(x, P, observed_ids)  # after every update:         \"event\": \"update\", "
-      "\"observed\": [ids]",
-      "log.initialised(x, P)            # after every new feature:    \"event\": \"initialise\"",
+      R"(from slamscope_log import Log; record = Log("run.jsonl")   # Python)",
+      R"(record = slamscope_log('run.jsonl');                       % MATLAB, Octave)",
+      R"(slamscope::Log record("run.jsonl");                        // C++)",
+      R"(record.predicted(x, P, t)         after every prediction)",
+      R"(record.updated(x, P, [ids])       after every update: the features observed in it)",
+      R"(record.initialised(x, P, [ids])   after every new feature (lists in C++: {ids}))",
+      R"(The logger is one file to copy beside your filter: apps/loggers/slamscope_log.py, .m, .hpp)",
   };
 }
 
-std::vector<std::string> linesToL3() {
-  return {
-      "in the header: \"R\": [[r11, r12], [r21, r22]] and \"sensor\": \"range-bearing\" or "
-      "\"relative-position\"",
-      "with updates:  \"observations\": [{\"id\": 4, \"z\": [..], \"innovation\": [..], \"S\": "
-      "[[..]], \"R\": [[..]], \"H\": [[..]]}]",
-  };
+std::vector<std::string> linesToL3(const RunHeader& header) {
+  std::vector<std::string> lines;
+  if (!header.R || header.sensor == Sensor::unknown) {
+    lines.emplace_back(
+        "record = Log(\"run.jsonl\", sensor=\"range-bearing\", R=R)   # or \"relative-position\"");
+  }
+  lines.emplace_back(
+      "record.updated(x, P, [id], observations=[{\"id\": id, \"z\": z, \"innovation\": nu, \"S\": "
+      "S, "
+      "\"R\": R, \"H\": H}])");
+  return lines;
 }
 
 void broken(LawReport& report, FaultClass fault_class) {
@@ -160,8 +168,8 @@ AuditReport Audit::State::report() const {
     report.hints.emplace_back(
         "--allow absolute-sensor, if the filter has a compass or another absolute sensor");
   }
-  if (!every_event && options.means_known) report.next_level = linesToL2();
-  if (every_event && !innovations) report.next_level = linesToL3();
+  if (!every_event) report.next_level = linesToL2();
+  if (every_event && !innovations) report.next_level = linesToL3(header);
 
   const bool judged = std::any_of(report.laws.begin(), report.laws.end(), [](const LawReport& l) {
     return l.checked > 0 && l.law != Law::finite && l.law != Law::symmetric &&

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <map>
 
+#include "slam/audit/report_findings.hpp"
+
 namespace slamscope::slam {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr std::size_t kWidth = 100;
 std::string numberText(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%+.4g", value);
-  return text;
-}
-
-std::string timeText(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.2f s", value);
   return text;
 }
 
@@ -79,37 +75,13 @@ std::string blamed(const LawReport& law) {
   return joined(words);
 }
 
-/// Laws of one class that began together and blame the same features are one paragraph.
-std::vector<std::vector<const LawReport*>> groups(const AuditReport& report) {
-  std::vector<std::vector<const LawReport*>> result;
-  const auto ids = [](const LawReport& law) {
-    std::vector<FeatureId> list;
-    for (const Blame& b : law.blame) list.push_back(b.feature);
-    std::sort(list.begin(), list.end());
-    return list;
-  };
-  for (const LawReport& law : report.laws) {
-    if (law.status != LawStatus::violated) continue;
-    const auto mate = std::find_if(result.begin(), result.end(), [&](const auto& group) {
-      return group[0]->fault_class == law.fault_class &&
-             group[0]->first_record == law.first_record && ids(*group[0]) == ids(law);
-    });
-    if (mate != result.end()) {
-      mate->push_back(&law);
-    } else {
-      result.push_back({&law});
-    }
-  }
-  return result;
-}
-
-void paragraph(std::string& out, const std::vector<const LawReport*>& group) {
+void paragraph(std::string& out, const Finding& group) {
   const LawReport& first = *group[0];
   std::vector<std::string> names;
   for (const LawReport* law : group) names.emplace_back(lawName(law->law));
   std::string head = joined(names);
   if (first.first_time_s && first.first_record) {
-    head += "   from t = " + timeText(*first.first_time_s) + ", record " +
+    head += "   from t = " + secondsText(*first.first_time_s) + ", record " +
             std::to_string(*first.first_record);
   }
   if (first.fault_class == FaultClass::code) {
@@ -136,23 +108,12 @@ void paragraph(std::string& out, const std::vector<const LawReport*>& group) {
   }
 }
 
-std::string summary(const AuditReport& report) {
-  std::string text = report.verdict == Verdict::inconclusive ? "too little to judge"
-                     : report.classes.empty()                ? "no law is broken"
-                                                             : "laws are broken";
-  text += ": " + std::to_string(report.records) +
-          " records from t = " + timeText(report.first_time_s) + " to " +
-          timeText(report.last_time_s) + ", level " + report.level +
-          ", numbers: " + report.precision;
-  return text;
-}
-
 }  // namespace
 
 std::string reportText(const AuditReport& report) {
   std::string out;
-  line(out, "audit", summary(report));
-  for (const auto& group : groups(report)) paragraph(out, group);
+  line(out, "audit", std::string(verdictWords(report)) + ": " + runWords(report));
+  for (const auto& group : findingsOf(report)) paragraph(out, group);
   for (const std::string& likely : report.likely) line(out, "likely", likely);
   for (const std::string& hint : report.hints) line(out, "perhaps meant", hint);
   std::vector<std::string> whole;

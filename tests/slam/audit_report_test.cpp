@@ -44,9 +44,9 @@ TEST(AuditText, IsAtMostAHundredWide) {
 
 TEST(AuditText, ALogOfTimeStepsEndsWithTheLinesForLevelTwo) {
   const std::string text = reportText(auditRun(oneLoop(1), {.every_event = false}));
-  EXPECT_TRUE(contains(text, "log.predicted(x, P)")) << text;
-  EXPECT_TRUE(contains(text, "log.updated(x, P, observed_ids)")) << text;
-  EXPECT_TRUE(contains(text, "log.initialised(x, P)")) << text;
+  EXPECT_TRUE(contains(text, "record.predicted(x, P, t)")) << text;
+  EXPECT_TRUE(contains(text, "record.updated(x, P, [ids])")) << text;
+  EXPECT_TRUE(contains(text, "record.initialised(x, P, [ids])")) << text;
 }
 
 TEST(AuditJson, HoldsTheSchema) {

@@ -132,9 +132,15 @@ TEST_F(RunFile, ThatCantBeOpenedIsNamedWithTheReason) {
   };
   EXPECT_EQ(error("/nowhere/run.jsonl"),
             "/nowhere/run.jsonl: can't be opened (No such file or directory)");
-  EXPECT_EQ(error("/tmp"), "/tmp: expected a file, found a directory");
+  fs::create_directory(path("folder"));
+  EXPECT_EQ(error(path("folder")), path("folder") +
+                                       ": expected a file, or a directory of MRPT's kf-slam with "
+                                       "full_cov_*.txt in it, found a directory without");
+  fs::remove(path("folder"));
   const std::string odd = store("run.csv", kHeader);
-  EXPECT_EQ(error(odd), odd + ": .csv is not supported; runs end in .jsonl or .jsonl.zst");
+  EXPECT_EQ(error(odd), odd +
+                            ": .csv is not supported; runs end in .jsonl, .jsonl.zst, .npz, .npy "
+                            "or .mat, or are a directory of MRPT's kf-slam");
   EXPECT_THROW(RunWriter(path("run.txt"), {}), std::runtime_error);
   EXPECT_THROW(RunWriter("/nowhere/run.jsonl", {}), std::runtime_error);
   EXPECT_EQ(filesIn(), 1U);

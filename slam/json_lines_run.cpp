@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "slam/run_reader.hpp"
+#include "slam/json_lines_run.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 namespace slamscope::slam {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{256} << 10U;
 
-/// A missing file is said to be missing before its ending is looked at.
-TextInput openRun(const std::string& path) {
-  TextInput input(path);
-  static_cast<void>(runFormat(path));
-  return input;
-}
-
 }  // namespace
 
-RunReader::RunReader(std::string path)
-    : path_(std::move(path)), input_(openRun(path_)), decoder_(path_) {
+JsonLinesRun::JsonLinesRun(std::string path)
+    : path_(std::move(path)), input_(path_), decoder_(path_) {
   ahead_ = readRecord();
   if (decoder_.begun()) return;
   throw std::runtime_error(path_ + (warnings_.empty() ? ": expected a header and records, found "
@@ -27,14 +21,11 @@ RunReader::RunReader(std::string path)
                                                         "nothing but a line that is cut off"));
 }
 
-std::optional<SnapshotPtr> RunReader::next() {
-  SnapshotPtr snapshot = ahead_ ? std::move(ahead_) : readRecord();
-  ahead_ = nullptr;
-  if (!snapshot) return std::nullopt;
-  return snapshot;
+SnapshotPtr JsonLinesRun::next() {
+  return ahead_ ? std::exchange(ahead_, nullptr) : readRecord();
 }
 
-SnapshotPtr RunReader::readRecord() {
+SnapshotPtr JsonLinesRun::readRecord() {
   while (!ended_) {
     while (const auto line = nextLine()) {
       if (auto snapshot = decoder_.decode(*line)) return snapshot;
@@ -50,7 +41,7 @@ SnapshotPtr RunReader::readRecord() {
   return nullptr;
 }
 
-std::optional<std::string_view> RunReader::nextLine() {
+std::optional<std::string_view> JsonLinesRun::nextLine() {
   try {
     return lines_.next();
   } catch (const std::runtime_error& error) {
@@ -60,7 +51,7 @@ std::optional<std::string_view> RunReader::nextLine() {
 }
 
 /// A last line without an end: whole (some languages end no line after the last), or cut off.
-SnapshotPtr RunReader::lastLine() {
+SnapshotPtr JsonLinesRun::lastLine() {
   const std::string_view line = lines_.rest();
   if (isCutOff(line) || (input_.cutOff() && !line.empty() && line.find('{') == line.npos)) {
     warnings_.push_back(path_ + ":" + std::to_string(decoder_.lines() + 1) +
@@ -72,7 +63,7 @@ SnapshotPtr RunReader::lastLine() {
   return decoder_.decode(line);
 }
 
-void RunReader::finish() {
+void JsonLinesRun::finish() {
   if (input_.cutOff() && warnings_.empty()) {
     warnings_.push_back(path_ + ": the compressed file is cut off after " +
                         std::to_string(decoder_.records()) + " records; what follows is lost");

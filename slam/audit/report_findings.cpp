@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "slam/audit/report_findings.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace slamscope::slam {
+
+std::string secondsText(double time_s) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f s", time_s);
+  return text;
+}
+
+std::vector<Finding> findingsOf(const AuditReport& report) {
+  std::vector<Finding> result;
+  const auto ids = [](const LawReport& law) {
+    std::vector<FeatureId> list;
+    for (const Blame& b : law.blame) list.push_back(b.feature);
+    std::sort(list.begin(), list.end());
+    return list;
+  };
+  for (const LawReport& law : report.laws) {
+    if (law.status != LawStatus::violated) continue;
+    const auto mate = std::find_if(result.begin(), result.end(), [&](const Finding& finding) {
+      return finding[0]->fault_class == law.fault_class &&
+             finding[0]->first_record == law.first_record && ids(*finding[0]) == ids(law);
+    });
+    if (mate != result.end()) {
+      mate->push_back(&law);
+    } else {
+      result.push_back({&law});
+    }
+  }
+  return result;
+}
+
+std::string_view verdictWords(const AuditReport& report) {
+  if (report.verdict == Verdict::inconclusive) return "too little to judge";
+  return report.classes.empty() ? "no law is broken" : "laws are broken";
+}
+
+std::string runWords(const AuditReport& report) {
+  return std::to_string(report.records) + " records from t = " + secondsText(report.first_time_s) +
+         " to " + secondsText(report.last_time_s) + ", level " + report.level +
+         ", numbers: " + report.precision;
+}
+
+}  // namespace slamscope::slam

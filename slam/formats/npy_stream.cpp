@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "slam/formats/npy_stream.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <regex>
+#include <stdexcept>
+
+namespace slamscope::slam {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::size_t kBatch = 8192;  // numbers converted at a time
+
+[[noreturn]] void fail(const std::string& text) {
+  throw std::runtime_error(text);
+}
+
+std::string field(const std::string& header, const char* pattern, const std::string& name) {
+  std::smatch found;
+  if (!std::regex_search(header, found, std::regex(pattern))) {
+    fail("expected " + name + " in the header of the array, found none");
+  }
+  return found[1];
+}
+
+template <class From>
+void convert(const char* raw, std::span<double> numbers) {
+  for (double& number : numbers) {
+    From value;
+    std::memcpy(&value, raw, sizeof value);
+    number = static_cast<double>(value);
+    raw += sizeof value;
+  }
+}
+
+using Convert = void (*)(const char*, std::span<double>);
+
+/// Nothing for a type that is not supported.
+Convert conversion(char kind, std::size_t size) {
+  if (kind == 'f') return size == 8 ? convert<double> : size == 4 ? convert<float> : nullptr;
+  if (kind == 'b') return convert<std::uint8_t>;
+  const bool is_signed = kind == 'i';
+  if (!is_signed && kind != 'u') return nullptr;
+  switch (size) {
+    case 1:
+      return is_signed ? convert<std::int8_t> : convert<std::uint8_t>;
+    case 2:
+      return is_signed ? convert<std::int16_t> : convert<std::uint16_t>;
+    case 4:
+      return is_signed ? convert<std::int32_t> : convert<std::uint32_t>;
+    case 8:
+      return is_signed ? convert<std::int64_t> : convert<std::uint64_t>;
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+NpyStream::NpyStream(std::unique_ptr<Bytes> bytes) : bytes_(std::move(bytes)) {
+  std::string start(8, '\0');
+  fill(start);
+  if (start.substr(0, 6) != "\x93NUMPY") fail("expected an array in NumPy's format");
+  const int version = start[6];
+  if (version < 1 || version > 3) {
+    fail("expected version 1 to 3 of NumPy's format, found " + std::to_string(version));
+  }
+  std::uint32_t length = 0;
+  fill({reinterpret_cast<char*>(&length), version == 1 ? 2U : 4U});
+  if (length > (1U << 20U)) fail("the header of the array is damaged");
+  std::string header(length, '\0');
+  fill(header);
+  parse(header);
+}
+
+void NpyStream::parse(const std::string& header) {
+  // {'descr': '<f8', 'fortran_order': False, 'shape': (100, 3), }
+  if (header.find("'descr': [") != header.npos) {
+    fail("expected numbers, found records of several fields: save x and P as arrays of their own");
+  }
+  const std::string type = field(header, R"('descr':\s*'([^']*)')", "the type of numbers");
+  if (type.find('O') != type.npos) {
+    fail(
+        "an object array (pickled Python objects, which are not read): save with np.savez(..., "
+        "x=..., P=...) as float arrays; pad with NaN");
+  }
+  reversed_ = field(header, R"('fortran_order':\s*(\w+))", "the order") == "True";
+  const std::string shape = field(header, R"('shape':\s*\(([^)]*)\))", "the shape");
+  const std::regex digits(R"(\d+)");
+  for (std::sregex_iterator k(shape.begin(), shape.end(), digits), end; k != end; ++k) {
+    if (k->str().size() > 15) fail("the shape of the array is damaged");
+    shape_.push_back(std::stoull(k->str()));
+  }
+  static_cast<void>(numbersIn(shape_));
+  if (reversed_ && shape_.size() < 2) reversed_ = false;
+  if (reversed_) std::reverse(shape_.begin(), shape_.end());
+  std::smatch parts;
+  if (!std::regex_match(type, parts, std::regex(R"(([<>|=]?)([a-zA-Z])(\d{1,6}))"))) {
+    fail("expected numbers (float64), found type '" + type + "'");
+  }
+  big_endian_ = parts[1] == ">";
+  kind_ = parts[2].str().front();
+  item_ = std::stoul(parts[3]) * (kind_ == 'U' ? 4 : 1);
+  if (!isText() && conversion(kind_, item_) == nullptr) {
+    fail("expected numbers of type float64 or float32, found '" + type + "'");
+  }
+}
+
+void NpyStream::fill(std::span<char> buffer) {
+  if (bytes_->read(buffer) != buffer.size()) fail("it is cut off");
+}
+
+void NpyStream::read(std::span<double> numbers) {
+  if (isText()) fail("expected numbers, found text");
+  const Convert convert_batch = conversion(kind_, item_);
+  while (!numbers.empty()) {
+    const std::span<double> batch = numbers.first(std::min(numbers.size(), kBatch));
+    raw_.resize(batch.size() * item_);
+    fill(raw_);
+    if (big_endian_ && item_ > 1) {
+      for (auto at = raw_.begin(); at != raw_.end(); at += static_cast<std::ptrdiff_t>(item_)) {
+        std::reverse(at, at + static_cast<std::ptrdiff_t>(item_));
+      }
+    }
+    convert_batch(raw_.data(), batch);
+    numbers = numbers.subspan(batch.size());
+  }
+}
+
+NumberArray NpyStream::readAll() {
+  NumberArray array{shape_, {}, reversed_, kind_ == 'b'};
+  // Grows as it is read: a shape that lies must not reserve memory that no data follows for.
+  for (std::size_t left = numbersIn(shape_); left != 0;) {
+    const std::size_t part = std::min<std::size_t>(left, 1U << 20U);
+    array.values.resize(array.values.size() + part);
+    read(std::span(array.values).last(part));
+    left -= part;
+  }
+  return array;
+}
+
+std::vector<std::string> NpyStream::readWords() {
+  std::vector<std::string> words(std::min<std::size_t>(numbersIn(shape_), 1U << 28U));
+  std::vector<char> raw(item_);
+  for (std::string& word : words) {
+    fill(raw);
+    const std::size_t step = kind_ == 'U' ? 4 : 1;
+    for (std::size_t k = 0; k < raw.size(); k += step) {
+      std::uint32_t code = 0;
+      std::memcpy(&code, raw.data() + k, step);
+      if (big_endian_ && step == 4) code = __builtin_bswap32(code);
+      if (code != 0) word += code < 0x80 ? static_cast<char>(code) : '?';  // known words are ASCII
+    }
+  }
+  return words;
+}
+
+}  // namespace slamscope::slam
