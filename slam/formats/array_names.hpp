@@ -26,6 +26,11 @@ inline const std::vector<std::string_view> kTruth{"true", "truth", "xtrue", "x_t
 /// The numbers of that name; nothing where there are none.
 using ArrayOf = std::function<std::optional<NumberArray>(std::string_view)>;
 
+/// How many features a state of so many numbers has room for.
+[[nodiscard]] inline std::size_t featurePlaces(std::size_t numbers) {
+  return numbers < 3 ? 0 : (numbers - 3) / 2;
+}
+
 /// Adds times, ids, observed and true poses, as far as they are there, to arrays of known `steps`;
 /// `places` is the largest number of features. A single number of one of those names is taken for
 /// what a saved work space holds besides and passed over; another shape that does not fit throws

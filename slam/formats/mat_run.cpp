@@ -63,10 +63,6 @@ std::size_t usedSteps(const Column& column) {
   return steps;
 }
 
-std::size_t placesOf(std::size_t numbers) {
-  return numbers < 3 ? 0 : (numbers - 3) / 2;
-}
-
 std::size_t widest(const Column& column) {
   std::size_t side = 0;
   for (const MatVariable& value : column) {
@@ -82,7 +78,7 @@ RunArrays ofColumns(Column P, std::optional<Column> x, std::size_t& places) {
   P.erase(P.begin() + static_cast<std::ptrdiff_t>(arrays.steps), P.end());
   if (filled(P) != P.size())
     throw std::runtime_error("P: expected a matrix in each step, found none");
-  places = placesOf(x ? 0 : widest(P));
+  places = featurePlaces(x ? 0 : widest(P));
   // In Tim Bailey's simulator as many use it, the line that keeps x is commented out.
   const std::size_t kept = x ? filled(*x) : 0;
   if (x && x->size() >= arrays.steps && kept < arrays.steps && kept <= 1) {
@@ -95,7 +91,7 @@ RunArrays ofColumns(Column P, std::optional<Column> x, std::size_t& places) {
                              ", as many as P, found " + std::to_string(x->size()));
   }
   if (x) {
-    for (const MatVariable& value : *x) places = std::max(places, placesOf(value.count()));
+    for (const MatVariable& value : *x) places = std::max(places, featurePlaces(value.count()));
     arrays.x = std::make_unique<CellSlices>("x", std::move(*x), false);
   } else {
     const bool diagonal = std::all_of(P.begin(), P.end(), [](const MatVariable& value) {
@@ -118,7 +114,7 @@ RunArrays ofStacks(NumberArray P, std::optional<NumberArray> x, std::size_t& pla
   const StackPlan plan = planStack(x_stacked, {P.shape, StepAxis::first});
   RunArrays arrays;
   arrays.steps = plan.steps;
-  places = placesOf(plan.size);
+  places = featurePlaces(plan.size);
   arrays.P = slicesOf(std::move(P), plan.steps, plan.P, !plan.diagonal);
   if (x) arrays.x = slicesOf(std::move(*x), plan.steps, plan.x);
   return arrays;
@@ -216,7 +212,7 @@ Place variablesOf(const std::shared_ptr<const MatFile>& file) {
   return {whole, column};
 }
 
-RunArrays readArrays(const std::string& path) {
+RunArrays matArrays(const std::string& path) {
   const auto file = std::make_shared<const MatFile>(path);
   if (const auto place = structIn(*file, true)) return gather(*place);
   const Place variables = variablesOf(file);
@@ -235,7 +231,7 @@ RunArrays readArrays(const std::string& path) {
 std::unique_ptr<RunSource> openMatRun(const std::string& path) {
   RunArrays arrays;
   try {
-    arrays = readArrays(path);
+    arrays = matArrays(path);
   } catch (const std::runtime_error& error) {
     const std::string text = error.what();
     throw std::runtime_error(text.starts_with(path) ? text : path + ": " + text);

@@ -143,10 +143,6 @@ std::map<std::uint64_t, std::string> numbered(const std::vector<std::string>& na
   return found;
 }
 
-std::size_t placesOf(std::size_t numbers) {
-  return numbers < 3 ? 0 : (numbers - 3) / 2;
-}
-
 /// Nothing where no array is called P_0, P_1, …
 std::optional<RunArrays> arraysAStep(const std::shared_ptr<const NumpyFiles>& files,
                                      std::size_t& places) {
@@ -166,7 +162,7 @@ std::optional<RunArrays> arraysAStep(const std::shared_ptr<const NumpyFiles>& fi
   }
   RunArrays arrays;
   arrays.steps = P_names.size();
-  places = placesOf(files->open(P_names.back()).shape().back());
+  places = featurePlaces(files->open(P_names.back()).shape().back());
   arrays.P = std::make_unique<MemberSlices>(files, std::move(P_names));
   if (!x_names.empty()) arrays.x = std::make_unique<MemberSlices>(files, std::move(x_names));
   return arrays;
@@ -191,13 +187,13 @@ RunArrays stacks(const NumpyFiles& files, std::size_t& places) {
   const StackPlan plan = planStack(x_stacked, stacked(P));
   RunArrays arrays;
   arrays.steps = plan.steps;
-  places = placesOf(plan.size);
+  places = featurePlaces(plan.size);
   arrays.P = stackSlices(*P_name, std::move(P), plan, plan.P, !plan.diagonal);
   if (x) arrays.x = stackSlices(*x_name, std::move(*x), plan, plan.x, false);
   return arrays;
 }
 
-RunArrays readArrays(const std::string& path) {
+RunArrays numpyArrays(const std::string& path) {
   const auto files = std::make_shared<const NumpyFiles>(path);
   std::size_t places = 0;
   auto arrays = arraysAStep(files, places);
@@ -224,7 +220,7 @@ std::unique_ptr<RunSource> openNumpyRun(const std::string& path) {
   RunArrays arrays;
   const FileBytes there(path);
   try {
-    arrays = readArrays(path);
+    arrays = numpyArrays(path);
   } catch (const std::runtime_error& error) {
     const std::string text = error.what();
     throw std::runtime_error(text.starts_with(path) ? text : path + ": " + text);
