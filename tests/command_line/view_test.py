@@ -56,6 +56,14 @@ class BadInput(program.InAFolder):
     def test_a_window_without_a_display(self):
         self.refused("monitor", saying="display", env=NO_DISPLAY)
 
+    def test_alarms_without_an_audit(self):
+        self.refused("monitor", "--mode", "alarms", "--no-audit", "--picture", "p.png",
+                     saying=["--mode alarms", "--no-audit"])
+
+    def test_an_unknown_word_of_allow_lists_the_known(self):
+        self.refused("monitor", "--allow", "magic", "--picture", "p.png",
+                     saying=["magic", "robocentric"])
+
     def test_an_output_of_unknown_ending(self):
         self.refused("monitor", "--output", "out.gif", saying="out.gif")
 
@@ -84,7 +92,11 @@ class LiveFilter(program.InAFolder):
                               timeout=120, env=NO_DISPLAY)
         feeder.wait()
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertGreater(len(self.shown("r.json")), 10)
+        shown = self.shown("r.json")
+        self.assertGreater(len(shown), 10)
+        # The audit listens to a live filter too, and this one is correct.
+        self.assertGreater(shown[-1]["alarms"]["records"], 100)
+        self.assertEqual([f["alarms"]["flagged"] for f in shown if f["alarms"]["flagged"]], [])
 
     def test_tcp_filter_killed_and_restarted_and_a_viewer_that_joins_late(self):
         port = free_port()
@@ -109,6 +121,23 @@ class LiveFilter(program.InAFolder):
 
 
 class Films(program.InAFolder):
+    def test_a_recorded_run_of_whole_steps_shows_its_alarms(self):
+        self.run_here("simulate", "--fault", "paper", "--fault-features", 8, "--loops", 1,
+                      "-o", "run.jsonl")
+        status, _, errors = self.run_here("monitor", "--slam", "run.jsonl", "--mode", "alarms",
+                                          "--slam-rate", 8, "--report", "r.json")
+        self.assertEqual(status, 0, errors)
+        last = self.load("r.json")["frames"][-1]
+        self.assertEqual(last["alarms"]["flagged"], [8])
+        self.assertEqual(last["drawn"], {"ellipsoids": 14, "features": 1})
+
+    def test_without_an_audit_nothing_is_flagged(self):
+        self.run_here("monitor", "--fault", "paper", "--no-audit", "--frames", 60,
+                      "--slam-rate", 4, "--report", "r.json")
+        last = self.load("r.json")["frames"][-1]
+        self.assertIsNone(last["alarms"])
+        self.assertGreater(last["drawn"]["ellipsoids"], 0)
+
     def test_numbered_pictures_and_a_picture_of_the_last(self):
         status, _, errors = self.run_here("monitor", "--frames", 4, "--output", "o-%03d.png",
                                           "--picture", "last.png", "--size", "640x360")
