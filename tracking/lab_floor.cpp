@@ -7,9 +7,9 @@
 namespace slamscope::tracking::lab {
 namespace {
 
-constexpr double kTile = 0.5;                 // m
-constexpr double kJoint = 0.0025;             // half width of the joint between tiles, m
-constexpr int kTexels = 512;                  // of the marble pattern, which is 1 m wide
+constexpr double kTile = 0.5;                      // m
+constexpr double kJoint = 0.0025;                  // half width of the joint between tiles, m
+constexpr int kTexels = 512;                       // of the marble pattern, which is 1 m wide
 constexpr double kField = 1.5, kTapeWidth = 0.05;  // half side of the field, width of its tape, m
 
 float random01(std::uint64_t key) {
