@@ -32,7 +32,7 @@ struct AuditFlags {
   bool quiet = false;
 };
 
-constexpr const char* kFooter =
+constexpr const char* kAuditHelp =
     "Examples:\n"
     "  slamscope audit run.jsonl.zst\n"
     "  slamscope audit run.jsonl --junit audit.xml --fail-on code      one line in CI\n"
@@ -98,7 +98,7 @@ void addAudit(CLI::App& program) {
   const auto flags = std::make_shared<AuditFlags>();
   CLI::App* verb = program.add_subcommand(
       "audit", "check a run by the laws that a correct EKF-SLAM obeys; name the feature at fault");
-  verb->footer(kFooter);
+  verb->footer(kAuditHelp);
   verb->add_option("RUN", flags->run,
                    "run to judge (.jsonl, .jsonl.zst, .npz, .npy, .mat, MRPT's directory; - is "
                    "standard input)")

@@ -41,7 +41,7 @@ struct SlamFlags {
   std::string score_json;
 };
 
-constexpr const char* kFooter =
+constexpr const char* kSlamHelp =
     "Examples:\n"
     "  slamscope slam --mrclam DIR --robot 3 --score -o run.jsonl.zst\n"
     "  slamscope slam --csv DIR --sensor-sigma 0.1,0.02 -o run.jsonl\n"
@@ -159,7 +159,7 @@ void run(const SlamFlags& flags) {
 void addSlam(CLI::App& program) {
   const auto flags = std::make_shared<SlamFlags>();
   CLI::App* verb = program.add_subcommand("slam", "our EKF-SLAM on recorded data");
-  verb->footer(kFooter);
+  verb->footer(kSlamHelp);
   verb->add_option("--mrclam", flags->mrclam, "directory of a UTIAS MR.CLAM data set");
   verb->add_option("--robot", flags->robot, "which of its robots")->check(CLI::Range(1, 5));
   verb->add_option("--csv", flags->csv, "directory of anybody's data, see below");

@@ -36,7 +36,7 @@ std::vector<std::string_view> patternsOf(const Eigen::Matrix2d& R, const Eigen::
   const PrincipalAxes axes = principalAxes(scale.asDiagonal() * R * scale.asDiagonal());
   if (std::abs(axes.eigenvalues[1] - 0.5) < 0.1 && axes.eigenvalues[0] < 1.1) {
     patterns.emplace_back("observed-twice");
-  } else if (factor > 0.0 && is(factor * declared)) {
+  } else if (factor > 0.0 && std::abs(factor - 1.0) > 0.1 && is(factor * declared)) {
     patterns.emplace_back("noise-factor");
   }
   return patterns;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+
+#include "engine/render/offscreen.hpp"
+
+namespace slamscope::engine {
+namespace {
+
+constexpr Pinhole kCamera = {
+    .width = 1280, .height = 720, .fx = 900.0, .fy = 900.0, .cx = 639.5, .cy = 359.5};
+
+/// From 3 m before and 2.6 m above the middle of the floor.
+View overhead() {
+  const Eigen::Vector3d eye(0.0, -3.0, 2.6);
+  const Eigen::Vector3d z = -eye.normalized();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  View view;
+  view.camera = kCamera;
+  view.T_eye_scene.linear() << x.transpose(), z.cross(x).transpose(), z.transpose();
+  view.T_eye_scene.translation() = -(view.T_eye_scene.linear() * eye);
+  return view;
+}
+
+/// Ellipsoids, 6 to 54 px long, over 3 m × 3 m of floor, as many as pairs of n features.
+Scene pairs(int count) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-1.5, 1.5);
+  std::uniform_real_distribution<double> size(0.01, 0.09);
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    const double minor = 0.5 * size(random);
+    const Eigen::AngleAxisd turn(place(random), Eigen::Vector3d::UnitZ());
+    scene.ellipsoids.push_back(
+        {{place(random), place(random), 0.0},
+         turn.toRotationMatrix() * Eigen::Vector3d(size(random), minor, minor).asDiagonal(),
+         {0.9F, 0.1F, 0.1F, 1.0F}});
+  }
+  return scene;
+}
+
+std::shared_ptr<const Image> picture() {
+  auto image = std::make_shared<Image>(Image{kCamera.width, kCamera.height, {}});
+  for (int i = 0; i < kCamera.width * kCamera.height; ++i) {
+    const auto grey = static_cast<std::uint8_t>(100 + i % 97);
+    image->rgba.insert(image->rgba.end(), {grey, grey, grey, 255});
+  }
+  return image;
+}
+
+/// A lens with some barrel distortion.
+std::shared_ptr<const LookupMap> lens() {
+  auto map = std::make_shared<LookupMap>(LookupMap{kCamera.width, kCamera.height, {}});
+  for (int v = 0; v < kCamera.height; ++v) {
+    for (int u = 0; u < kCamera.width; ++u) {
+      const double x = (u - kCamera.cx) / kCamera.fx;
+      const double y = (v - kCamera.cy) / kCamera.fy;
+      const double bend = 1.0 - 0.1 * (x * x + y * y);
+      map->uv_px.push_back(static_cast<float>(kCamera.cx + bend * x * kCamera.fx));
+      map->uv_px.push_back(static_cast<float>(kCamera.cy + bend * y * kCamera.fy));
+    }
+  }
+  return map;
+}
+
+/// Every glyph is uploaded anew and the picture read back each frame. background: 0 none, 1 pixel
+/// by pixel, 2 through a lens.
+void drawFrame(benchmark::State& state) {
+  const auto views = static_cast<std::size_t>(state.range(2));
+  View view = overhead();
+  if (state.range(1) > 0) view.background.image = picture();
+  if (state.range(1) > 1) view.background.map = lens();
+  std::vector<View> eyes(views, view);
+  if (views > 1) eyes[1].T_eye_scene.pretranslate(Eigen::Vector3d(-0.064, 0.0, 0.0));
+  const Scene scene = pairs(static_cast<int>(state.range(0)));
+  const auto gpu = std::make_shared<Gpu>();
+  Offscreen offscreen(gpu, kCamera.width, kCamera.height, static_cast<int>(views));
+  std::vector<Image> pictures;
+  double gpu_ms = 0.0;
+  for (auto _ : state) {
+    offscreen.draw(eyes, scene, {}, pictures);
+    gpu_ms += offscreen.lastStats().gpu_ms;
+    benchmark::DoNotOptimize(pictures.front().rgba.data());
+  }
+  state.counters["gpu_ms"] = benchmark::Counter(gpu_ms, benchmark::Counter::kAvgIterations);
+  state.SetLabel(gpu->device().name);
+}
+BENCHMARK(drawFrame)
+    ->ArgNames({"ellipsoids", "background", "views"})
+    ->ArgsProduct({{0, 105, 435}, {0, 1, 2}, {1}})
+    ->Args({105, 2, 2})
+    ->Args({435, 2, 2})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace slamscope::engine
