@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/audit/thin_q.hpp"
+
 namespace slamscope::slam {
 namespace {
 
@@ -27,7 +29,7 @@ ChangeRange rangeOfChange(const Transition& t, int rank, int most) {
     Eigen::Index r = 0;
     while (r < count && std::abs(R(r, r)) > drowned) ++r;
     range.complete = r < count;
-    range.Q = qr.householderQ() * Eigen::MatrixXd::Identity(t.size(), r);
+    range.Q = thinQ(qr, r);
     range.noise = r > 0 ? drowned / std::abs(R(r - 1, r - 1)) : 0.0;
     if (range.complete || count >= limit) return range;
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/audit/thin_q.hpp"
+
 namespace slamscope::slam {
 namespace {
 
@@ -41,7 +43,7 @@ Factorised factorise(const SpanBasis& basis, const std::vector<int>& without) {
   const Eigen::Index most = std::min(W.rows(), W.cols());
   while (rank < most && std::abs(qr.matrixR()(rank, rank)) > 1e-14) ++rank;
   f.all_resolved = rank == W.cols() && std::abs(qr.matrixR()(rank - 1, rank - 1)) > drowned;
-  f.Q = qr.householderQ() * Eigen::MatrixXd::Identity(W.rows(), rank);
+  f.Q = thinQ(qr, rank);
   f.R = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
   f.noise.resize(rank);
   for (Eigen::Index c = 0; c < rank; ++c) {

@@ -21,7 +21,7 @@ namespace slamscope::tracking {
 namespace {
 
 using Eigen::Isometry3d, Eigen::Vector2d;
-using Corners = std::array<Vector2d, 4>;
+using GivenCorners = std::array<Vector2d, 4>;
 namespace fs = std::filesystem;
 
 std::optional<fs::path> recorded(const std::string& folder) {
@@ -45,8 +45,8 @@ std::vector<TagDetection> detect(TagDetector& detector, const fs::path& file) {
 
 /// Root mean square per axis, over the tags that both know, after `offset` was added to the given
 /// ones.
-double rmsDifference(const std::vector<TagDetection>& found, const std::map<int, Corners>& given,
-                     const Vector2d& offset) {
+double rmsDifference(const std::vector<TagDetection>& found,
+                     const std::map<int, GivenCorners>& given, const Vector2d& offset) {
   double sum = 0;
   int count = 0;
   for (const TagDetection& tag : found) {
@@ -61,7 +61,7 @@ double rmsDifference(const std::vector<TagDetection>& found, const std::map<int,
 
 TEST(RecordedTags, RenderedPictureGivesTheCornersThatCameWithIt) {
   SLAMSCOPE_NEED(folder, "visp_rendered_640x480");
-  std::map<int, Corners> given;
+  std::map<int, GivenCorners> given;
   std::ifstream text(*folder / "corners_tag36_11.txt");
   for (int id = 0; text >> id;) {
     for (Vector2d& corner : given[id]) text >> corner.x() >> corner.y();
@@ -86,7 +86,7 @@ Isometry3d poseOf(const nlohmann::json& rows) {
 
 /// What ViSP found in the sequence, and the board by it: mean pose of each tag over all frames.
 struct Sequence {
-  std::vector<std::map<int, Corners>> corners;
+  std::vector<std::map<int, GivenCorners>> corners;
   std::vector<Isometry3d> T_camera_board;
   TagLayout board;
   CameraModel camera;
@@ -196,7 +196,7 @@ TEST(RecordedTags, PhotographsGiveTheTagsThatCameWithThem) {
           line.begin(), line.end(), [](char c) { return c == ',' || c == '(' || c == ')'; }, ' ');
       std::istringstream numbers(line);
       int id = 0;
-      Corners corners;
+      GivenCorners corners;
       numbers >> id;
       for (Vector2d& corner : corners) numbers >> corner.x() >> corner.y();
       if (!numbers) continue;
