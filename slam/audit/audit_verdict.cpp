@@ -148,6 +148,10 @@ AuditReport Audit::State::report() const {
   const bool heading = at(Law::heading_floor).violations() > 0;
   if (report.found(FaultClass::code) || (report.found(FaultClass::statistics) && !heading)) {
     report.classes.erase(FaultClass::linearisation);
+    for (LawReport& law : report.laws) {
+      if (law.fault_class != FaultClass::linearisation) continue;
+      law.fault_class = report.found(FaultClass::code) ? FaultClass::code : FaultClass::statistics;
+    }
   }
   for (const Signature* signature : fitting(all)) report.likely.emplace_back(signature->likely);
 

@@ -177,6 +177,25 @@ class Mrclam(program.InAFolder):
             self.assertLessEqual(score["features_rms_aligned_m"], 0.15)
             self.assertLessEqual(score["path_rms_aligned_m"], 0.5)
 
+    def test_the_audit_finds_no_code_fault_and_says_that_the_noise_is_assumed_too_large(self):
+        for robot in range(1, 6):
+            status, _, errors = self.run_here("slam", "--mrclam", self.mrclam, "--robot", robot,
+                                              "--record", "all", "-o", "run.jsonl.zst")
+            self.assertEqual(status, 0, errors)
+            status, text, errors = self.run_here("audit", "run.jsonl.zst", "--fail-on", "code",
+                                                 "--json", "audit.json")
+            self.assertEqual(status, 0, errors + text)
+            audit = self.load("audit.json")
+            self.assertFalse(audit["classes"]["code_fault"], text)
+            laws = {law["law"]: law for law in audit["laws"]}
+            for exact in ("positive", "shrink", "support", "range", "map-still", "motion",
+                          "initialise"):
+                self.assertEqual(laws[exact]["status"], "ok", f"robot {robot}: {exact}")
+                self.assertGreater(laws[exact]["checked"], 10)
+            # The defaults are careful: real innovations are well inside of what is declared.
+            self.assertEqual(laws["nis"]["status"], "violated")
+            self.assertLess(laws["nis"]["evidence"][0]["given"], 0.5)
+
 
 if __name__ == "__main__":
     program.main()
