@@ -61,10 +61,10 @@ struct HeadTrackerOptions {
   double gate_sigmas = 6;  ///< corners further off are outliers (and at least 0.5 px)
   std::chrono::nanoseconds coast_limit{500'000'000};  ///< then: searching
   std::chrono::nanoseconds history{1'000'000'000};    ///< how late a picture may come
-  /// Heads are above the floor (z > 0) and nobody stands on theirs: of two poses of a lone tag, one
-  /// that is below the floor or further from upright than this is not believed. 0: no such rule.
-  double most_roll = 1.2;   ///< rad
-  std::size_t up_axis = 1;  ///< axis of the head frame that points down (1: y, as optical frames)
+  /// Heads are above the floor (z > 0) and nobody stands on theirs: where two poses fit, one that
+  /// is below the floor, upside down or rolled by more than this (of the left camera) is not the
+  /// one. 0: no such rule (a world whose z is not up).
+  double most_roll = 1.2;  ///< rad
 };
 
 /// The pose of a head from tags of known place in its cameras' pictures.
