@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tracking/camera_model.hpp"
@@ -35,6 +36,9 @@ class TagSearch {
       const std::vector<Place>& also = {});
   /// The picture searched last was searched whole.
   [[nodiscard]] bool whole() const { return whole_; }
+  /// "the picture is mirrored": no tag was found for a while, but there are some in the picture's
+  /// mirror image. Empty when all is well.
+  [[nodiscard]] std::string problem() const { return mirrored_ ? "the picture is mirrored" : ""; }
 
  private:
   [[nodiscard]] std::vector<PixelRegion> regions(const Eigen::Isometry3d& T_camera_world,
@@ -45,8 +49,11 @@ class TagSearch {
   TagLayout layout_;
   TagSearchOptions options_;
   TagDetector detector_;
+  void lookIntoTheMirror(const ImageView& picture, bool found);
+
   int since_whole_ = 0;
-  bool whole_ = false;
+  int without_tags_ = 0;  // pictures in a row
+  bool whole_ = false, mirrored_ = false;
 };
 
 }  // namespace slamscope::tracking
