@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace slamscope::tracking {
 namespace {
@@ -171,6 +172,7 @@ class HeadSolver {
     fit.residual_px = std::sqrt(px2 / fit.used_count);
     const double dof = std::max(1, 2 * fit.used_count - 6);
     const double excess = chi2 / dof > 1 + 3 * std::sqrt(2 / dof) ? chi2 / dof : 1;
+    fit.agrees = excess == 1 && fit.used_count == static_cast<int>(used_.size());
     // The corners' share of the information alone is worth less where they don't fit.
     const Matrix12d H = (linearise(motion, kUnlimited).H - information_) / excess + information_;
     fit.motion.covariance = H.llt().solve(Matrix12d::Identity());
@@ -191,10 +193,51 @@ class HeadSolver {
   std::vector<bool> used_;
 };
 
+/// See fitHeadWarily.
+double discord(const HeadFitProblem& problem, const HeadMotion& motion) {
+  const auto distances = headDistances(problem.eyes, problem.sights, motion);
+  double sum = 0;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double unit = 3 * problem.sights[i].sigma_px;
+    sum += std::log1p(std::pow(std::min(distances[i], 1e3) / unit, 2));
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::optional<HeadFit> fitHead(const HeadFitProblem& problem, const HeadMotion& start) {
   return HeadSolver(problem).solve(start);
+}
+
+std::optional<HeadFit> fitHeadWarily(const HeadFitProblem& problem, const HeadMotion& start) {
+  constexpr std::size_t kMostTags = 16;
+  auto fit = fitHead(problem, start);
+  if (fit && fit->agrees) return fit;
+  std::set<int> tags;
+  for (const HeadSight& sight : problem.sights) tags.insert(sight.tag);
+  if (tags.size() < 3 || tags.size() > kMostTags) return fit;
+  HeadMotion best = fit ? fit->motion : start;
+  double least = fit ? discord(problem, best) : std::numeric_limits<double>::infinity();
+  const double first = least;
+  for (const int without : tags) {
+    std::vector<HeadSight> rest;
+    for (const HeadSight& sight : problem.sights) {
+      if (sight.tag != without) rest.push_back(sight);
+    }
+    HeadFitProblem smaller = problem;
+    smaller.sights = rest;
+    const auto other = fitHead(smaller, best);
+    if (!other) continue;
+    const double sum = discord(problem, other->motion);
+    if (sum >= least) continue;
+    least = sum;
+    best = other->motion;
+  }
+  if (least >= first) return fit;
+  best.covariance = problem.prior.covariance;
+  auto again = fitHead(problem, best);
+  return again && discord(problem, again->motion) < first ? again : fit;
 }
 
 std::vector<double> headDistances(std::span<const EyeCamera> eyes,

@@ -42,6 +42,7 @@ struct HeadFit {
   double cost = 0;
   /// Change of the pose against the prior, squared Mahalanobis distance, 6 degrees of freedom.
   double surprise = 0;
+  bool agrees = false;  ///< every corner is used, and they fit as well as their sigmas say
 };
 
 /// All corners of all tags in both pictures and the prior in one least squares over the twelve
@@ -51,6 +52,12 @@ struct HeadFit {
 /// outside of its camera's valid set, or what remains doesn't determine the pose.
 [[nodiscard]] std::optional<HeadFit> fitHead(const HeadFitProblem& problem,
                                              const HeadMotion& start);
+
+/// The same, and where corners contradict each other also from the fits without one tag each: a tag
+/// that is off by little pulls the rest along until another one looks wrong. The start counts whose
+/// sum of log(1 + (distance / 3 sigma)²) over all corners is least.
+[[nodiscard]] std::optional<HeadFit> fitHeadWarily(const HeadFitProblem& problem,
+                                                   const HeadMotion& start);
 
 /// Distances of the sights to where a motion projects them, px; infinite out of view.
 [[nodiscard]] std::vector<double> headDistances(std::span<const EyeCamera> eyes,

@@ -29,7 +29,9 @@ std::size_t HeadHistory::put(HeadPicture picture, nanoseconds together) {
   HeadMoment moment;
   moment.time = picture.time;
   moment.pictures.push_back(std::move(picture));
-  return static_cast<std::size_t>(moments_.insert(place, std::move(moment)) - moments_.begin());
+  const auto index = static_cast<std::size_t>(place - moments_.begin());
+  moments_.insert(place, std::move(moment));
+  return index;
 }
 
 void HeadHistory::forget() {

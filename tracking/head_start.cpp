@@ -19,7 +19,7 @@ double turnBetween(const Isometry3d& a, const Isometry3d& b) {
   return rotationLog(a.linear().transpose() * b.linear()).norm();
 }
 
-/// Poses of the head by each picture alone.
+/// Poses of the head by each picture alone; by one only where it leaves no doubt.
 std::vector<Isometry3d> posesByPicture(std::span<const EyeCamera> eyes, const TagLayout& layout,
                                        std::span<const EyeSight> pictures) {
   std::vector<Isometry3d> poses;
@@ -30,6 +30,7 @@ std::vector<Isometry3d> posesByPicture(std::span<const EyeCamera> eyes, const Ta
     const Isometry3d T_camera_head = eye.T_head_camera.inverse();
     poses.push_back(pose->T_camera_world.inverse() * T_camera_head);
     if (pose->other) poses.push_back(pose->other->inverse() * T_camera_head);
+    if (!pose->ambiguous && pose->tags >= 3 && pose->rejected_ids.empty()) break;
   }
   return poses;
 }
@@ -96,7 +97,7 @@ std::vector<HeadFit> findHead(std::span<const EyeCamera> eyes, const TagLayout& 
   for (const Isometry3d& start : posesByPicture(eyes, layout, pictures)) {
     const HeadMotion unknown = unknownMotion(start, options);
     const HeadFitProblem problem{eyes, sights, unknown, false, options.gate_sigmas};
-    auto fit = fitHead(problem, unknown);
+    auto fit = fitHeadWarily(problem, unknown);
     if (!fit) continue;
     const auto same = [&](const Found& other) {
       return turnBetween(other.fit.motion.T_world_head, fit->motion.T_world_head) < kSameTurn;

@@ -74,7 +74,7 @@ std::vector<HeadHypothesis> HeadStep::predictedHeads(const HeadMoment* before,
 void HeadStep::update(Update& update) const {
   for (const HeadHypothesis& head : update.before) {
     HeadFitProblem problem{eyes_, update.sights, head.motion, true, options_.gate_sigmas};
-    auto fit = fitHead(problem, head.motion);
+    auto fit = fitHeadWarily(problem, head.motion);
     if (!fit || fit->used_count < kLeastCorners) continue;
     update.found.push_back({std::move(*fit), 0});
     update.found.back().score = head.score + update.found.back().fit.cost;

@@ -52,7 +52,8 @@ std::vector<LabTag> defaultRoomTags() {
   struct Place {
     double aside, height, degrees;
   };
-  constexpr Place kPlaces[] = {{-1.75, 1.05, 2}, {-0.6, 1.55, -3}, {0.55, 1.2, 1}, {1.7, 1.65, -2}};
+  constexpr Place kPlaces[] = {
+      {-1.75, 0.40, 2}, {-0.6, 0.85, -3}, {0.55, 0.45, 1}, {1.7, 0.90, -2}};
   std::vector<LabTag> tags;
   for (int wall = 0; wall < 4; ++wall)
     for (const Place& place : kPlaces)
@@ -63,6 +64,14 @@ std::vector<LabTag> defaultRoomTags() {
                                  place.aside + 0.07 * wall, place.height,
                                  (place.degrees - wall) * kInDegrees)});
   for (const LabTag& tag : defaultFloorTags()) tags.push_back(tag);
+  constexpr Place kBeforeAndBehind[] = {
+      {-0.75, 1.86, 5}, {0.8, 1.9, -8}, {-0.8, -1.88, 3}, {0.7, -1.85, -4}};
+  for (const auto& [x, y, degrees] : kBeforeAndBehind)
+    tags.push_back(
+        {.id = 84 + static_cast<int>(tags.size()),
+         .size = 0.30,
+         .T_world_tag = Eigen::Translation3d(x, y, 0) *
+                        Isometry3d(AngleAxisd(degrees * kInDegrees, Vector3d::UnitZ()))});
   return tags;
 }
 

@@ -145,7 +145,7 @@ TEST(HeadTracker, DoubledAndOutdatedPicturesAreNamedAndDropped) {
   tracker.add(pictures);
   tracker.add(first);
   const auto after = tracker.at(atFrame(60));
-  EXPECT_EQ(difference(before->motion, after->motion).norm(), 0);
+  EXPECT_LT(difference(before->motion, after->motion).norm(), 1e-12);
   const auto problems = tracker.problems();
   const auto says = [&](const char* what) {
     return std::any_of(problems.begin(), problems.end(),
@@ -244,7 +244,7 @@ TEST(HeadTracker, LoneTagFromAfarIsAmbiguousUntilASecondOneShows) {
   int ambiguous = 0, wrong = 0, resolved_wrong = 0;
   for (int run = 0; run < 60; ++run) {
     room.random.seed(static_cast<unsigned>(run));
-    HeadTracker tracker(room.rig, room.truth);
+    HeadTracker tracker(room.rig, room.truth, {.most_roll = 0});
     room.most_tags = 1;
     tracker.add(room.pair(atFrame(0)));
     const auto pose = tracker.at(atFrame(0));
