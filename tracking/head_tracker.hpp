@@ -54,7 +54,7 @@ struct HeadFix {
 };
 
 struct HeadTrackerOptions {
-  HeadNoise noise;
+  HeadNoise noise = {};
   /// What is the same in many frames and so is not averaged out: bias of a corner, place of a tag
   /// in the layout; px per axis, added to each corner's sigma.
   double corner_bias_px = 0.02;

@@ -32,8 +32,8 @@ struct StereoLabOptions {
 /// as assembled by hand, the head frame between them, optical axes. `scale` makes pictures and f
 /// larger (2: 1280 × 960).
 [[nodiscard]] Rig defaultLabRig(double scale = 1);
-/// Tags on the walls (ids 1..16, 0.30 m, 0.4 to 0.9 m up, where somebody who looks at the robot has
-/// them in view; a room of 6.6 m × 5.4 m about the world's origin), the eight of the floor (see
+/// Tags on the walls (ids 1..16, 0.30 m, 0.35 to 0.6 m up, where somebody who looks at the robot
+/// has them in view; a room of 6.6 m × 5.4 m about the world's origin), the eight of the floor (see
 /// defaultFloorTags) and four larger ones before and behind the field (108..111, 0.30 m).
 [[nodiscard]] std::vector<LabTag> defaultRoomTags();
 /// All of these, and a head that walks around the robot.

@@ -53,13 +53,13 @@ std::vector<LabTag> defaultRoomTags() {
     double aside, height, degrees;
   };
   constexpr Place kPlaces[] = {
-      {-1.75, 0.40, 2}, {-0.6, 0.85, -3}, {0.55, 0.45, 1}, {1.7, 0.90, -2}};
+      {-1.75, 0.36, 2}, {-0.6, 0.60, -3}, {0.55, 0.40, 1}, {1.7, 0.62, -2}};
   std::vector<LabTag> tags;
   for (int wall = 0; wall < 4; ++wall)
     for (const Place& place : kPlaces)
       tags.push_back(
           {.id = 1 + static_cast<int>(tags.size()),
-           .size = 0.24,
+           .size = 0.30,
            .T_world_tag = onWall(wall * kRightAngleHalf, (wall % 2 == 0 ? kWallX : kWallY) - kPaper,
                                  place.aside + 0.07 * wall, place.height,
                                  (place.degrees - wall) * kInDegrees)});
