@@ -21,7 +21,7 @@ constexpr std::size_t kLeastPictures = 3;
 constexpr double kFullWeight = 3;  // sigmas
 constexpr double kOutlierSigmas = 8, kOutlier_px = 0.7;
 constexpr int kGoodSightings = 5;
-constexpr double kMostResidual_px = 1.0, kMostDropped = 0.2;
+constexpr double kMostResidual_px = 1.0, kLeastKept = 0.6;
 
 std::string joined(const std::set<int>& ids) {
   std::string text;
@@ -199,14 +199,32 @@ void reportResiduals(const Bundle& bundle, double focal_px, RoomCalibration& res
   }
 }
 
-void refuseContradiction(double residual_px, double dropped) {
-  if (residual_px < kMostResidual_px && dropped < kMostDropped) return;
-  std::array<char, 160> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "tags: the pictures contradict each other (residual %.2f px, %.0f %% of the corners "
-      "left out): is a size or the camera's calibration wrong, or was a tag moved?",
-      residual_px, 100 * dropped);
+std::vector<int> cornersByTag(const Bundle& bundle) {
+  std::vector<int> counts(bundle.T_world_tag.size(), 0);
+  for (const BundleCorner& corner : bundle.corners) ++counts[corner.tag];
+  return counts;
+}
+
+/// Tags of which more corners had to be left out than is chance.
+void refuseMisfits(const TagLayout& layout, const std::vector<int>& all,
+                   const std::vector<int>& kept) {
+  std::set<int> ids;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (kept[i] < kLeastKept * all[i]) ids.insert(layout.tags[i].id);
+  }
+  if (ids.empty()) return;
+  throw std::runtime_error("tags: " + joined(ids) +
+                           " fit the others in few pictures only: of another size than stated, or "
+                           "moved during the walk?");
+}
+
+void refuseContradiction(double residual_px) {
+  if (residual_px < kMostResidual_px) return;
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(),
+                "tags: the pictures contradict each other (residual %.2f px): is a size or the "
+                "camera's calibration wrong?",
+                residual_px);
   throw std::runtime_error(text.data());
 }
 
@@ -253,9 +271,9 @@ RoomCalibration calibrateRoom(std::span<const CameraModel> cameras,
         {static_cast<std::size_t>(tag - start.layout.tags.data()), tag->size_m / 2});
   }
   if (!bundle.floor.empty()) levelWorld(bundle);
-  const double all = static_cast<double>(bundle.corners.size());
+  const std::vector<int> all = cornersByTag(bundle);
   dropOutliers(bundle, focal_px);
-  const double dropped = 1 - static_cast<double>(bundle.corners.size()) / all;
+  refuseMisfits(start.layout, all, cornersByTag(bundle));
   adjust(bundle, kFullWeight);
 
   RoomCalibration result;
@@ -265,7 +283,7 @@ RoomCalibration calibrateRoom(std::span<const CameraModel> cameras,
   }
   result.floor_m = heightOf(bundle);
   reportResiduals(bundle, focal_px, result);
-  refuseContradiction(result.residual_px, dropped);
+  refuseContradiction(result.residual_px);
   hintAt(result);
   std::sort(result.layout.tags.begin(), result.layout.tags.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });

@@ -150,7 +150,7 @@ TEST(RoomCalibration, FindsTheRoomFromAWalk) {
 }
 
 TEST(RoomCalibration, RefusesSizesThatContradictThePictures) {
-  RoomWalk walk(40);
+  RoomWalk walk(24);
   RoomCalibrationOptions options;
   options.size_m = 0.30;  // the small ones of the floor aren't
   EXPECT_THROW((void)calibrateRoom(walk.cameras, walk.pictures, options), std::runtime_error);
