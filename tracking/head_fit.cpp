@@ -185,7 +185,7 @@ class HeadSolver {
     using Matrix6 = Eigen::Matrix<double, 6, 6>;
     const Matrix6 P = problem_.prior.covariance.topLeftCorner<6, 6>();
     const Matrix6 learnt = P - after.topLeftCorner<6, 6>() + 1e-9 * P;
-    return off.head<6>().dot(learnt.ldlt().solve(off.head<6>()));
+    return off.head<6>().dot(learnt.llt().solve(off.head<6>()));
   }
 
   const HeadFitProblem& problem_;

@@ -17,8 +17,8 @@ namespace {
 
 using Eigen::Isometry3d, Eigen::Matrix3d, Eigen::Vector3d;
 
-constexpr std::size_t kLeastPictures = 3;
-constexpr double kFullWeight = 3;  // sigmas
+constexpr std::size_t kLeastWalkPictures = 3;
+constexpr double kFullWeightBeyond = 3;  // sigmas
 constexpr double kOutlierSigmas = 8, kOutlier_px = 0.7;
 constexpr int kGoodSightings = 5;
 constexpr double kMostResidual_px = 1.0, kLeastKept = 0.6;
@@ -73,7 +73,7 @@ MappedTag chooseGauge(const std::vector<RoomPicture>& pictures, const std::vecto
       beside[tag.id] += static_cast<int>(picture.tags.size()) - 1;
     }
   }
-  if (count < kLeastPictures) {
+  if (count < kLeastWalkPictures) {
     throw std::runtime_error("tags: two tags of stated size are seen together in " +
                              std::to_string(count) + " pictures; expected at least 3");
   }
@@ -263,7 +263,7 @@ RoomCalibration calibrateRoom(std::span<const CameraModel> cameras,
   Bundle bundle = makeBundle(cameras, used, start, options.corner_bias_px);
   const double focal_px = cameras.front().K()(0, 0);
   // Ever narrower: at first nearly all corners are off by more than they are in the end.
-  for (const double full_weight : {300.0, 30.0, kFullWeight}) adjust(bundle, full_weight);
+  for (const double full_weight : {300.0, 30.0, kFullWeightBeyond}) adjust(bundle, full_weight);
   for (const int id : options.floor) {
     const MappedTag* tag = start.layout.find(id);
     if (!tag) throw std::runtime_error("tags: floor tag " + std::to_string(id) + " is never seen");
@@ -274,7 +274,7 @@ RoomCalibration calibrateRoom(std::span<const CameraModel> cameras,
   const std::vector<int> all = cornersByTag(bundle);
   dropOutliers(bundle, focal_px);
   refuseMisfits(start.layout, all, cornersByTag(bundle));
-  adjust(bundle, kFullWeight);
+  adjust(bundle, kFullWeightBeyond);
 
   RoomCalibration result;
   result.layout = start.layout;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr double kForget = 0.98;  // a picture; some fifty count
-constexpr double kLeastPictures = 8;
+constexpr double kLeastPlaces = 8;
 constexpr double kFurther_m = 0.05, kTurnedFurther = 0.05;  // since the picture before
 constexpr double kSignificant = 7;
 /// Smaller ones are nobody's mistake.
@@ -38,7 +38,7 @@ template <int first, int size, typename Matrix4, typename Vector4>
 Explanation explain(const Matrix4& H, const Vector4& g, double chi2, double dof) {
   const Eigen::Matrix<double, size, size> A = H.template block<size, size>(first, first);
   const Eigen::Matrix<double, size, 1> b = g.template segment<size>(first);
-  const Eigen::Matrix<double, size, 1> x = A.ldlt().solve(b);
+  const Eigen::Matrix<double, size, 1> x = A.inverse() * b;
   Explanation result;
   result.value.template head<size>() = x;
   result.explained = b.dot(x);
@@ -87,7 +87,7 @@ void StatedCheck::add(const EyeCamera& eye, const TagLayout& layout,
     ++count;
   }
   if (count < 8) return;
-  const Eigen::LDLT<Matrix6d> solver(A);
+  const Eigen::LLT<Matrix6d> solver(A);
   before_ = here;
   H_ = kForget * H_ + C - B.transpose() * solver.solve(B);
   g_ = kForget * g_ + c - B.transpose() * solver.solve(a);
@@ -97,8 +97,8 @@ void StatedCheck::add(const EyeCamera& eye, const TagLayout& layout,
 }
 
 std::optional<std::string> StatedCheck::named() const {
-  if (pictures_ < kLeastPictures) return std::nullopt;
-  const double all = g_.dot(H_.ldlt().solve(g_));
+  if (pictures_ < kLeastPlaces) return std::nullopt;
+  const double all = g_.dot(H_.llt().solve(g_));
   const Explanation focal = explain<0, 1>(H_, g_, chi2_, dof_);
   const Explanation point = explain<1, 2>(H_, g_, chi2_, dof_);
   const Explanation size = explain<3, 1>(H_, g_, chi2_, dof_);

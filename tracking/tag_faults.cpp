@@ -156,7 +156,9 @@ std::string TagFaults::text(const Key& key, double amount, const TagLayout& layo
 std::vector<std::string> TagFaults::named() const {
   std::vector<std::string> names;
   for (const auto& [key, votes] : votes_) {
-    if (votes.size() < kVotes) continue;
+    const Key swap{Kind::swapped, std::min(key.first, key.second), std::max(key.first, key.second)};
+    const bool said = key.kind == Kind::in_place_of && votes_.contains(swap);
+    if (votes.size() < kVotes || said) continue;
     std::vector<double> amounts;
     for (const Vote& one : votes) amounts.push_back(one.amount);
     const auto middle = amounts.begin() + static_cast<std::ptrdiff_t>(amounts.size() / 2);

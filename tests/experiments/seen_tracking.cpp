@@ -41,9 +41,9 @@ std::vector<int> seenAt(SeenRoom& room, int frame) {
   return ids;
 }
 
-/// Ten frames with a layout that isn't the room's; counts what is said of `bad`.
-void judge(SeenRoom& room, const TagLayout& stated, int frame, int bad, const std::string& name,
-           SpoiltLayouts& result) {
+/// Ten frames with a layout that isn't the room's; counts what is said of `bad`: one of `sayings`.
+void judge(SeenRoom& room, const TagLayout& stated, int frame, int bad,
+           const std::vector<std::string>& sayings, SpoiltLayouts& result) {
   HeadTracker tracker(room.rig, stated);
   for (int k = 0; k < 10; ++k) {
     tracker.add(room.pair(atFrame(frame + k)));
@@ -53,9 +53,10 @@ void judge(SeenRoom& room, const TagLayout& stated, int frame, int bad, const st
     }
   }
   ++result.trials;
-  if (names(tracker, name)) ++result.named;
-  result.others_named +=
-      static_cast<int>(tracker.problems().size()) - (names(tracker, name) ? 1 : 0);
+  const bool named = std::any_of(sayings.begin(), sayings.end(),
+                                 [&](const auto& saying) { return names(tracker, saying); });
+  result.named += named ? 1 : 0;
+  result.others_named += static_cast<int>(tracker.problems().size()) - (named ? 1 : 0);
 }
 
 }  // namespace
@@ -144,15 +145,17 @@ SpoiltLayouts spoiltLayouts(int places) {
     TagLayout moved = room.truth;
     const Isometry3d shift(Eigen::Translation3d(i % 2 == 0 ? 0.01 : 0, i % 2 == 0 ? 0 : 0.01, 0));
     tagOf(moved, a).T_world_tag = tagOf(moved, a).T_world_tag * shift;
-    judge(room, moved, frame, a, tag + " has moved", result);
+    judge(room, moved, frame, a, {tag + " has moved"}, result);
     TagLayout swapped = room.truth;
     std::swap(tagOf(swapped, a).T_world_tag, tagOf(swapped, b).T_world_tag);
+    const std::string both =
+        std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b));
+    // The other one may be out of view.
     judge(room, swapped, frame, a,
-          "tags " + std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b)),
-          result);
+          {"tags " + both, tag + " stands in the place of tag " + std::to_string(b)}, result);
     TagLayout small = room.truth;
     tagOf(small, a).size_m *= 0.85;
-    judge(room, small, frame, a, tag + " looks", result);
+    judge(room, small, frame, a, {tag + " looks"}, result);
   }
   return result;
 }
