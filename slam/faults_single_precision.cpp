@@ -20,9 +20,8 @@ void SinglePrecision::updateCovariance(EkfState& state, const Correction& correc
     const ObservationJacobian& H_k = correction.observations[static_cast<std::size_t>(k)].H;
     H.middleRows<2>(2 * k) = H_k.dense(state.size()).cast<float>();
   }
-  const Eigen::MatrixXf S = correction.S.cast<float>();
   const Eigen::MatrixXf P = state.P.cast<float>();
-  const Eigen::MatrixXf K = P * H.transpose() * S.inverse();
+  const Eigen::MatrixXf K = P * H.transpose() * correction.S.inverse().cast<float>();
   const Eigen::MatrixXf I = Eigen::MatrixXf::Identity(state.size(), state.size());
   const Eigen::MatrixXf I_KH = I - K * H;
   state.P = (I_KH * P).cast<double>();

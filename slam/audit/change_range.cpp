@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/audit/thin_q.hpp"
+
 namespace slamscope::slam {
 namespace {
 
@@ -27,7 +29,7 @@ ChangeRange rangeOfChange(const Transition& t, int rank, int most) {
     Eigen::Index r = 0;
     while (r < count && std::abs(R(r, r)) > drowned) ++r;
     range.complete = r < count;
-    range.Q = qr.householderQ() * Eigen::MatrixXd::Identity(t.size(), r);
+    range.Q = thinQ(qr, r);
     range.noise = r > 0 ? drowned / std::abs(R(r - 1, r - 1)) : 0.0;
     if (range.complete || count >= limit) return range;
   }
@@ -54,14 +56,19 @@ std::optional<Eigen::Vector2d> linearisedAt(const Transition& t, const ChangeRan
   return delta;
 }
 
-bool contains(const Transition& t, const ChangeRange& range, int feature,
-              const Eigen::Vector2d& delta) {
+double shareOutside(const Transition& t, const ChangeRange& range, int feature,
+                    const Eigen::Vector2d& delta) {
   const int row = Snapshot::row(feature);
   const Eigen::VectorXd theta = t.scaledColumn(2);
   const Eigen::VectorXd u = t.scaledColumn(row) - t.scaledColumn(0) + delta.y() * theta;
   const Eigen::VectorXd v = t.scaledColumn(row + 1) - t.scaledColumn(1) - delta.x() * theta;
-  const double tolerance = 1e-6 + 10.0 * range.noise;
-  return outside(range, u) <= tolerance * u.norm() && outside(range, v) <= tolerance * v.norm();
+  return std::max(outside(range, u) / std::max(u.norm(), 1e-300),
+                  outside(range, v) / std::max(v.norm(), 1e-300));
+}
+
+bool contains(const Transition& t, const ChangeRange& range, int feature,
+              const Eigen::Vector2d& delta) {
+  return shareOutside(t, range, feature, delta) <= 1e-6 + 10.0 * range.noise;
 }
 
 }  // namespace slamscope::slam

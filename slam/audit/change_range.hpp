@@ -25,6 +25,10 @@ struct ChangeRange {
 [[nodiscard]] std::optional<Eigen::Vector2d> linearisedAt(const Transition& transition,
                                                           const ChangeRange& range, int written);
 
+/// Part of P⁻B(δ)ᵀ of a feature that lies outside of the range: 0 to 1, the larger of its columns.
+[[nodiscard]] double shareOutside(const Transition& transition, const ChangeRange& range,
+                                  int feature, const Eigen::Vector2d& delta);
+
 /// Whether P⁻B(δ)ᵀ of a feature lies in the range.
 [[nodiscard]] bool contains(const Transition& transition, const ChangeRange& range, int feature,
                             const Eigen::Vector2d& delta);

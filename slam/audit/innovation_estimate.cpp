@@ -4,22 +4,28 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace slamscope::slam {
 namespace {
 
 /// D⁺ over the eigenvectors whose eigenvalues stand out of the noise.
 struct PseudoInverse {
-  Eigen::MatrixXd half;  ///< columns q_i / √λ_i
-  double least = 0.0;    ///< least eigenvalue kept
+  Eigen::MatrixXd half;  ///< D⁺ = half halfᵀ
+  double least = 0.0;    ///< least eigenvalue kept, or a bound below it
 };
 
+/// What an eigenvalue of D must exceed to be more than rounding.
+double leastResolved(const Eigen::MatrixXd& D, double largest, double noise, double mean_noise) {
+  const double size = std::sqrt(static_cast<double>(D.rows()));
+  return std::max({100.0 * noise * size, 1e-9 * largest, 100.0 * mean_noise * mean_noise});
+}
+
+/// By eigenvalues: whatever D is.
 PseudoInverse pseudoInverse(const Eigen::MatrixXd& D, double noise, double mean_noise) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(D);
   const Eigen::VectorXd& values = eigen.eigenvalues();
-  const double size = std::sqrt(static_cast<double>(D.rows()));
-  const double floor = std::max(
-      {100.0 * noise * size, 1e-9 * values.cwiseAbs().maxCoeff(), 100.0 * mean_noise * mean_noise});
+  const double floor = leastResolved(D, values.cwiseAbs().maxCoeff(), noise, mean_noise);
   PseudoInverse inverse;
   Eigen::Index first = 0;
   while (first < values.size() && !(values[first] > floor)) ++first;
@@ -30,10 +36,35 @@ PseudoInverse pseudoInverse(const Eigen::MatrixXd& D, double noise, double mean_
   return inverse;
 }
 
+/// A D known to lie in the span of the columns of U, for a fraction of the cost: with U = Q R,
+/// D⁺ = Q (Qᵀ D Q)⁻¹ Qᵀ. Nothing where U or D is near a smaller rank.
+std::optional<PseudoInverse> pseudoInverseWithin(const SpanBasis& U, const Eigen::MatrixXd& D,
+                                                 double noise, double mean_noise) {
+  const OrthonormalSpan span = orthonormal(U);
+  if (!span.all_resolved || span.Q.cols() != U.W.cols()) return std::nullopt;
+  const Eigen::MatrixXd inner = span.Q.transpose() * D * span.Q;
+  const Eigen::LLT<Eigen::MatrixXd> factor(inner);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  PseudoInverse inverse;
+  inverse.half = span.Q;
+  factor.matrixU().solveInPlace<Eigen::OnTheRight>(inverse.half);
+  inverse.least = 1.0 / inverse.half.squaredNorm();  // 1 / Σ 1/λ
+  if (!(inverse.least > leastResolved(D, inner.trace(), noise, mean_noise))) return std::nullopt;
+  return inverse;
+}
+
 Eigen::VectorXd pick(const Eigen::VectorXd& v, const std::vector<int>& states) {
   Eigen::VectorXd picked(static_cast<Eigen::Index>(states.size()));
   for (std::size_t k = 0; k < states.size(); ++k) {
     picked[static_cast<Eigen::Index>(k)] = v[states[k]];
+  }
+  return picked;
+}
+
+Eigen::MatrixXd rowsOf(const Eigen::MatrixXd& M, const std::vector<int>& rows) {
+  Eigen::MatrixXd picked(static_cast<Eigen::Index>(rows.size()), M.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    picked.row(static_cast<Eigen::Index>(k)) = M.row(rows[k]);
   }
   return picked;
 }
@@ -87,7 +118,16 @@ InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& 
   if (robot_bad) blocks.erase(blocks.begin());
   const std::vector<int> states = statesOf(blocks);
   if (states.empty()) return estimate;
-  const PseudoInverse inverse = pseudoInverse(t.scaledBlock(states), t.noise, scaledMeanNoise(t));
+  const Eigen::MatrixXd D = t.scaledBlock(states);
+  std::optional<PseudoInverse> within;
+  if (anatomy.fit.whole && anatomy.outside.empty()) {
+    SpanBasis own;
+    own.W = rowsOf(anatomy.basis.W, states);
+    own.noise = anatomy.basis.noise;
+    within = pseudoInverseWithin(own, D, t.noise, scaledMeanNoise(t));
+  }
+  const PseudoInverse inverse =
+      within ? std::move(*within) : pseudoInverse(D, t.noise, scaledMeanNoise(t));
   const Eigen::VectorXd dx = pick(t.scale.cwiseProduct(t.meanChange()), states);
   const Eigen::VectorXd w = inverse.half.transpose() * dx;
   const Eigen::Index lawful =

@@ -20,8 +20,8 @@ struct Nees {
 Nees neesOf(const Eigen::MatrixXd& P, const Eigen::VectorXd& error) {
   const Eigen::VectorXd scale = P.diagonal().unaryExpr(
       [](double variance) { return variance > 1e-200 ? 1.0 / std::sqrt(variance) : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * P *
-                                                             scale.asDiagonal());
+  const Eigen::MatrixXd correlation = scale.asDiagonal() * P * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
   const Eigen::VectorXd along = eigen.eigenvectors().transpose() * scale.cwiseProduct(error);
   Nees nees;
   for (Eigen::Index k = 0; k < along.size(); ++k) {

@@ -41,7 +41,8 @@ Outcome checkRange(const Transition& t, const UpdateAnatomy& anatomy) {
   }
   const double size = mean.Y.cwiseAbs().maxCoeff();
   if (!(size > 0.0)) return Outcome::of(0.0, 0.0);
-  SpanFit fit = fitSpan(t, mean, kept);
+  const bool as_fitted = anatomy.fit.whole && anatomy.outside.empty();
+  SpanFit fit = as_fitted ? fitSpan(t, mean, anatomy.span) : fitSpan(t, mean, kept);
   if (!fit.whole && std::abs(t.meanChange()[2]) > 1.5) {
     // A gain that turns the heading by more than half a turn can't be told from one by less.
     kept.W.row(2).setZero();

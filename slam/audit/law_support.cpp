@@ -73,15 +73,18 @@ UpdateAnatomy checkSupport(const Transition& t, const LinearisationPoints& point
   anatomy.deltas = lawfulDeltas(*t.before, anatomy.observed);
   anatomy.change = probeChange(t, 0, kProbes);
   anatomy.basis = observationBasis(t, anatomy.observed, anatomy.deltas);
-  anatomy.fit = fitSpan(t, anatomy.change, anatomy.basis);
+  anatomy.span = orthonormal(anatomy.basis);
+  anatomy.fit = fitSpan(t, anatomy.change, anatomy.span);
   anatomy.support = outcomeOf(t, anatomy.fit);
   if (!anatomy.support.violated()) return anatomy;
   if (const auto frozen = frozenDeltas(t, points, anatomy.observed)) {
     SpanBasis basis = observationBasis(t, anatomy.observed, *frozen);
-    SpanFit fit = fitSpan(t, anatomy.change, basis);
+    OrthonormalSpan span = orthonormal(basis);
+    SpanFit fit = fitSpan(t, anatomy.change, span);
     if (fit.whole) {
       anatomy.deltas = *frozen;
       anatomy.basis = std::move(basis);
+      anatomy.span = std::move(span);
       anatomy.fit = std::move(fit);
       anatomy.support = outcomeOf(t, anatomy.fit);
       anatomy.allow = "frozen-linearisation";

@@ -20,7 +20,8 @@ struct UpdateAnatomy {
   bool observed_found = false;          ///< found from range(D), not given
   std::vector<Eigen::Vector2d> deltas;  ///< l_i − p where the filter linearised, one for each of O
   ProbedChange change;
-  SpanBasis basis;  ///< P⁻B_iᵀ at `deltas`
+  SpanBasis basis;       ///< P⁻B_iᵀ at `deltas`
+  OrthonormalSpan span;  ///< of `basis`
   SpanFit fit;
   std::vector<int> outside;  ///< culprits: places of features, −1 the robot
   Outcome support;

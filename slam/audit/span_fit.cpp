@@ -5,49 +5,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/audit/thin_q.hpp"
+
 namespace slamscope::slam {
 namespace {
 
 constexpr double kSafety = 8.0;       ///< over the error expected from independent roundings
 constexpr double kArithmetic = 1e-6;  ///< of D itself: what other forms of the update may lose
 
-struct Factorised {
-  Eigen::MatrixXd Q;         ///< orthonormal, the resolved directions of the basis
-  Eigen::MatrixXd R;         ///< chosen columns of unit length = Q R
-  Eigen::VectorXd noise;     ///< of the chosen columns
-  bool all_resolved = true;  ///< no direction drowns in the noise
-};
+/// Pivots below this and the Gram matrix loses too much: then Householder, with column pivots.
+constexpr double kLeastPivot = 1e-4;
 
-Factorised factorise(const SpanBasis& basis, const std::vector<int>& without) {
-  Factorised f;
-  Eigen::MatrixXd W = basis.W;
-  Eigen::VectorXd noise = basis.noise;
-  for (const int state : without) {
-    if (state >= basis.begin) W.row(state - basis.begin).setZero();
+/// W ← Q, R by Cholesky QR, twice. False, W undefined, where a pivot is small.
+bool choleskyQr(Eigen::MatrixXd& W, Eigen::MatrixXd& R) {
+  for (int pass = 0; pass < 2; ++pass) {
+    const Eigen::MatrixXd gram = W.transpose() * W;
+    const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+    if (factor.info() != Eigen::Success) return false;
+    const Eigen::MatrixXd L = factor.matrixL();
+    if (!(L.diagonal().minCoeff() > kLeastPivot)) return false;
+    factor.matrixU().solveInPlace<Eigen::OnTheRight>(W);
+    R = pass == 0 ? Eigen::MatrixXd(L.transpose()) : Eigen::MatrixXd(L.transpose() * R);
   }
-  for (Eigen::Index c = 0; c < W.cols(); ++c) {
-    const double length = W.col(c).norm();
-    if (!(length > 0.0)) continue;
-    W.col(c) /= length;
-    noise[c] /= length;
-  }
-  f.Q.resize(W.rows(), 0);
-  if (W.cols() == 0) return f;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(W);
-  const double drowned =
-      std::max(1e-13, 10.0 * noise.maxCoeff() * std::sqrt(static_cast<double>(W.rows())));
-  // A direction that drowns is kept: to leave it out would leave out what D has along it.
-  Eigen::Index rank = 0;
-  const Eigen::Index most = std::min(W.rows(), W.cols());
-  while (rank < most && std::abs(qr.matrixR()(rank, rank)) > 1e-14) ++rank;
-  f.all_resolved = rank == W.cols() && std::abs(qr.matrixR()(rank - 1, rank - 1)) > drowned;
-  f.Q = qr.householderQ() * Eigen::MatrixXd::Identity(W.rows(), rank);
-  f.R = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
-  f.noise.resize(rank);
-  for (Eigen::Index c = 0; c < rank; ++c) {
-    f.noise[c] = noise[qr.colsPermutation().indices()[c]];
-  }
-  return f;
+  return true;
 }
 
 /// Y without the rows and columns of D at `without`.
@@ -89,6 +69,43 @@ std::vector<int> growingFeatures(const Transition& t) {
 }
 
 }  // namespace
+
+OrthonormalSpan orthonormal(const SpanBasis& basis, const std::vector<int>& without) {
+  OrthonormalSpan span;
+  Eigen::MatrixXd W = basis.W;
+  Eigen::VectorXd noise = basis.noise;
+  for (const int state : without) {
+    if (state >= basis.begin) W.row(state - basis.begin).setZero();
+  }
+  for (Eigen::Index c = 0; c < W.cols(); ++c) {
+    const double length = W.col(c).norm();
+    if (!(length > 0.0)) continue;
+    W.col(c) /= length;
+    noise[c] /= length;
+  }
+  span.Q.resize(W.rows(), 0);
+  if (W.cols() == 0) return span;
+  const double drowned =
+      std::max(1e-13, 10.0 * noise.maxCoeff() * std::sqrt(static_cast<double>(W.rows())));
+  if (drowned < kLeastPivot && W.cols() <= W.rows()) {
+    span.Q = W;
+    span.noise = noise;
+    if (choleskyQr(span.Q, span.R)) return span;
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(W);
+  // A direction that drowns is kept: to leave it out would leave out what D has along it.
+  Eigen::Index rank = 0;
+  const Eigen::Index most = std::min(W.rows(), W.cols());
+  while (rank < most && std::abs(qr.matrixR()(rank, rank)) > 1e-14) ++rank;
+  span.all_resolved = rank == W.cols() && std::abs(qr.matrixR()(rank - 1, rank - 1)) > drowned;
+  span.Q = thinQ(qr, rank);
+  span.R = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
+  span.noise.resize(rank);
+  for (Eigen::Index c = 0; c < rank; ++c) {
+    span.noise[c] = noise[qr.colsPermutation().indices()[c]];
+  }
+  return span;
+}
 
 SpanBasis observationBasis(const Transition& t, const std::vector<int>& features,
                            const std::vector<Eigen::Vector2d>& deltas) {
@@ -155,13 +172,17 @@ ProbedChange probeChange(const Transition& t, int begin, int count) {
 
 SpanFit fitSpan(const Transition& t, const ProbedChange& change, const SpanBasis& basis,
                 const std::vector<int>& without) {
+  return fitSpan(t, change, orthonormal(basis, without), without);
+}
+
+SpanFit fitSpan(const Transition& t, const ProbedChange& change, const OrthonormalSpan& span,
+                const std::vector<int>& without) {
   SpanFit fit;
-  const Factorised f = factorise(basis, without);
   const Eigen::MatrixXd Y = without.empty() ? change.Y : restricted(t, change, without);
-  Eigen::MatrixXd weight = f.Q.transpose() * Y;
-  fit.outside = Y - f.Q * weight;
+  Eigen::MatrixXd weight = span.Q.transpose() * Y;
+  fit.outside = Y - span.Q * weight;
   // How much the error of each basis vector matters: its weight in Y.
-  f.R.triangularView<Eigen::Upper>().solveInPlace(weight);
+  span.R.triangularView<Eigen::Upper>().solveInPlace(weight);
   const double rounding = t.noise * std::sqrt(static_cast<double>(Y.rows()));
   double worst = 0.0;
   double largest = 0.0;
@@ -169,13 +190,14 @@ SpanFit fitSpan(const Transition& t, const ProbedChange& change, const SpanBasis
   fit.whole = true;
   for (Eigen::Index k = 0; k < Y.cols(); ++k) {
     double error = rounding;
-    for (Eigen::Index c = 0; c < weight.rows(); ++c) error += f.noise[c] * std::abs(weight(c, k));
+    for (Eigen::Index c = 0; c < weight.rows(); ++c)
+      error += span.noise[c] * std::abs(weight(c, k));
     const double size = Y.col(k).cwiseAbs().maxCoeff();
     if (size == 0.0) continue;
     const double tolerance = kSafety * error + kArithmetic * size;
     const double residual = fit.outside.col(k).cwiseAbs().maxCoeff();
     if (!(residual <= tolerance)) fit.whole = false;
-    if (tolerance > 0.05 * size || (t.rounded && !f.all_resolved)) fit.checkable = false;
+    if (tolerance > 0.05 * size || (t.rounded && !span.all_resolved)) fit.checkable = false;
     if (residual >= worst) {
       worst = residual;
       fit.tolerance = tolerance;
@@ -214,7 +236,7 @@ std::vector<int> culprits(const Transition& t, const ProbedChange& change, const
   if (static_cast<int>(found.size()) > most) return {};
   SpanFit fit = fitSpan(t, change, basis, statesOf(found));
   while (!fit.whole && static_cast<int>(found.size()) < most) {
-    const Factorised f = factorise(basis, statesOf(found));
+    const OrthonormalSpan f = orthonormal(basis, statesOf(found));
     int best = -1;
     double best_relief = 0.0;
     for (int i = 0; i < t.shared; ++i) {

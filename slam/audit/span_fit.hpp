@@ -39,6 +39,20 @@ struct ProbedChange {
 };
 [[nodiscard]] ProbedChange probeChange(const Transition& transition, int begin, int count);
 
+/// A basis by orthonormal columns: the resolved directions of a SpanBasis.
+struct OrthonormalSpan {
+  Eigen::MatrixXd Q;  ///< columns orthonormal
+  Eigen::MatrixXd R;  ///< vectors of the basis, of unit length, in some order = Q R; upper triangle
+  Eigen::VectorXd noise;     ///< error of an entry of those vectors
+  bool all_resolved = true;  ///< no direction drowns in the noise
+};
+
+/// QR of the basis, rows `without` set to zero: by Cholesky's factor of WᵀW, twice, where W is well
+/// conditioned (Fukaya et al. 2014, "CholeskyQR2": as orthogonal as Householder's and several times
+/// quicker), else by pivoted Householder QR.
+[[nodiscard]] OrthonormalSpan orthonormal(const SpanBasis& basis,
+                                          const std::vector<int>& without = {});
+
 struct SpanFit {
   bool whole = false;      ///< every column of D lies in the span
   bool checkable = false;  ///< a part of 5 % outside would have been seen
@@ -48,10 +62,13 @@ struct SpanFit {
 };
 
 /// Whether the columns of D lie in the span, but for rows and columns of `without` (states, those
-/// before basis.begin are left out anyway). Least squares by pivoted QR; tolerance: the error that
+/// before basis.begin are left out anyway). Tolerance: the error that
 /// rounding of D and of the basis can leave.
 [[nodiscard]] SpanFit fitSpan(const Transition& transition, const ProbedChange& change,
                               const SpanBasis& basis, const std::vector<int>& without = {});
+/// The same with the basis made orthonormal before; `span` leaves out `without` too.
+[[nodiscard]] SpanFit fitSpan(const Transition& transition, const ProbedChange& change,
+                              const OrthonormalSpan& span, const std::vector<int>& without = {});
 
 /// Features, or the robot alone (−1), whose rows and columns of D, taken out, leave the rest whole:
 /// those whose variance grows, and the fewest others that a greedy search finds, up to `most` in

@@ -153,11 +153,17 @@ bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
 bool wrongBlock(const Transition& t, const ChangeRange& range, UpdateAnatomy& anatomy) {
   std::vector<int> written;
   for (std::size_t k = 0; k < anatomy.observed.size(); ++k) {
+    // The block that fits best; several may within the noise of a nearly full range.
+    int best = anatomy.observed[k];
+    double least = shareOutside(t, range, best, anatomy.deltas[k]);
     for (int j = 0; j < t.shared; ++j) {
-      if (j == anatomy.observed[k] || !contains(t, range, j, anatomy.deltas[k])) continue;
-      if (std::find(written.begin(), written.end(), j) == written.end()) written.push_back(j);
-      break;
+      const double share = shareOutside(t, range, j, anatomy.deltas[k]);
+      if (share >= least) continue;
+      least = share;
+      best = j;
     }
+    if (best == anatomy.observed[k] || !contains(t, range, best, anatomy.deltas[k])) continue;
+    if (std::find(written.begin(), written.end(), best) == written.end()) written.push_back(best);
   }
   if (written.empty()) return false;
   for (const int j : written) {

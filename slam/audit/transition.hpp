@@ -56,7 +56,7 @@ struct Transition {
                                 const Exactness& exactness);
 
 /// (D W) of the scaled D = P⁻ − P⁺ for states `begin` … size − 1; W has a row for each. One pass
-/// over both triangles, O(N²) per column.
+/// over P⁻ and P⁺ for every two columns.
 [[nodiscard]] Eigen::MatrixXd changeTimes(const Transition& transition, int begin,
                                           const Eigen::MatrixXd& W);
 

@@ -19,7 +19,7 @@ struct Film {
   cv::Mat last;
 };
 
-Film film(const std::string& fault) {
+Film alarmFilm(const std::string& fault) {
   const fs::path folder =
       fs::temp_directory_path() / ("slamscope-alarms-" + std::to_string(getpid()));
   fs::create_directories(folder);
@@ -43,11 +43,11 @@ Film film(const std::string& fault) {
 }
 
 const Film& faulty() {
-  static const Film one = film("paper");
+  static const Film one = alarmFilm("paper");
   return one;
 }
 const Film& healthy() {
-  static const Film one = film("none");
+  static const Film one = alarmFilm("none");
   return one;
 }
 

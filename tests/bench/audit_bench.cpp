@@ -9,19 +9,22 @@
 #include "slam/audit/audit.hpp"
 #include "slam/ekf_slam.hpp"
 #include "slam/recorder.hpp"
+#include "slam/simulation_random.hpp"
 
 namespace slamscope::slam {
 namespace {
 
-/// A filter with all its features in the map, standing still amid them.
+/// A filter with all its features in the map, standing still amid them; each update observes
+/// `together` of them, with errors as large as declared.
 struct Bench {
-  explicit Bench(int features) : filter(options()) {
+  Bench(int features, int together) : filter(options()), together(together) {
     const Eigen::Matrix2d R = Eigen::Vector2d(0.0036, 0.0016).asDiagonal();
     for (int k = 0; k < features; ++k) {
       const double angle = 0.1 + 2.9 * k / features;
       readings.push_back({static_cast<FeatureId>(k + 1), {1.0 + 0.001 * k, angle}, R});
     }
     filter.observe(std::chrono::nanoseconds{0}, readings);
+    lawful = readings;
   }
 
   static EkfOptions options() {
@@ -31,21 +34,30 @@ struct Bench {
   }
 
   void update() {
-    filter.update(std::span<const Observation>(&readings[next++ % readings.size()], 1));
+    std::vector<Observation> some;
+    for (int k = 0; k < together; ++k) {
+      Observation reading = lawful[next++ % lawful.size()];
+      reading.z += Eigen::Vector2d(0.06 * random.normal(), 0.04 * random.normal());
+      some.push_back(reading);
+    }
+    filter.update(some);
   }
 
   EkfSlam filter;
-  std::vector<Observation> readings;
+  int together;
+  std::vector<Observation> readings;  ///< of the start
+  std::vector<Observation> lawful;
+  RandomSource random{1};
   std::size_t next = 0;
 };
 
 void filterUpdate(benchmark::State& state) {
-  Bench bench(static_cast<int>(state.range(0)));
+  Bench bench(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   for (auto _ : state) bench.update();
 }
 
 void filterUpdateWithSnapshot(benchmark::State& state) {
-  Bench bench(static_cast<int>(state.range(0)));
+  Bench bench(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   SnapshotPtr last;
   const Subscription subscription =
       bench.filter.observe(kRecordAll, [&](const SnapshotPtr& snapshot) { last = snapshot; });
@@ -54,7 +66,7 @@ void filterUpdateWithSnapshot(benchmark::State& state) {
 
 /// The audit alone: takes records of updates that were made before.
 void auditUpdate(benchmark::State& state) {
-  Bench bench(static_cast<int>(state.range(0)));
+  Bench bench(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   std::vector<SnapshotPtr> records;
   const Subscription subscription = bench.filter.observe(
       kRecordAll, [&](const SnapshotPtr& snapshot) { records.push_back(snapshot); });
@@ -77,14 +89,16 @@ void auditUpdate(benchmark::State& state) {
   state.SetLabel(std::string(verdictName(audit.report().verdict)));
 }
 
-BENCHMARK(filterUpdate)->Arg(15)->Arg(100)->Arg(300)->Arg(1000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(filterUpdateWithSnapshot)
-    ->Arg(15)
-    ->Arg(100)
-    ->Arg(300)
-    ->Arg(1000)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK(auditUpdate)->Arg(15)->Arg(100)->Arg(300)->Arg(1000)->Unit(benchmark::kMicrosecond);
+constexpr auto kSizes = [](benchmark::internal::Benchmark* bench) {
+  bench->ArgNames({"features", "observed"})->Unit(benchmark::kMicrosecond);
+  for (const int features : {15, 100, 300, 1000}) {
+    for (const int observed : {10, 1}) bench->Args({features, observed});
+  }
+};
+
+BENCHMARK(filterUpdate)->Apply(kSizes);
+BENCHMARK(filterUpdateWithSnapshot)->Apply(kSizes);
+BENCHMARK(auditUpdate)->Apply(kSizes);
 
 }  // namespace
 }  // namespace slamscope::slam

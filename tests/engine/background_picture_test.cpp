@@ -8,10 +8,10 @@ namespace {
 
 constexpr int kWidth = 157;  // odd on purpose: rows are not aligned
 constexpr int kHeight = 93;
-constexpr Pinhole kCamera = {
+constexpr Pinhole kPicture = {
     .width = kWidth, .height = kHeight, .fx = 100.0, .fy = 100.0, .cx = 78.0, .cy = 46.0};
 
-std::shared_ptr<Image> noise(unsigned seed, int width = kWidth, int height = kHeight) {
+std::shared_ptr<Image> noisePicture(unsigned seed, int width = kWidth, int height = kHeight) {
   std::mt19937 random(seed);
   auto image = std::make_shared<Image>(Image{width, height, {}});
   for (int i = 0; i < width * height; ++i) {
@@ -60,16 +60,16 @@ class BackgroundPicture : public PictureTest {
  protected:
   static View viewOf(std::shared_ptr<const Image> image, std::shared_ptr<const LookupMap> map) {
     View view;
-    view.camera = kCamera;
+    view.camera = kPicture;
     view.background = {std::move(image), std::move(map)};
     return view;
   }
 };
 
 TEST_F(BackgroundPicture, PassesThroughToTheByte) {
-  const auto image = noise(1);
+  const auto image = noisePicture(1);
   EXPECT_TRUE(sameBytes(draw(viewOf(image, nullptr), {}), *image));
-  EXPECT_FALSE(sameBytes(draw(viewOf(noise(2), nullptr), {}), *image));
+  EXPECT_FALSE(sameBytes(draw(viewOf(noisePicture(2), nullptr), {}), *image));
 }
 
 TEST_F(BackgroundPicture, IsOpaqueBlackWithoutAPicture) {
@@ -80,7 +80,7 @@ TEST_F(BackgroundPicture, IsOpaqueBlackWithoutAPicture) {
 }
 
 TEST_F(BackgroundPicture, WholeShiftsOfTheMapAreExactAndBlackOutside) {
-  const auto image = noise(3);
+  const auto image = noisePicture(3);
   const Image picture = draw(viewOf(image, shift(3, -2)), {});
   EXPECT_EQ(worstAgainst(picture, *image, 3, -2), 0);
   EXPECT_GT(worstAgainst(picture, *image, 3, -1), 0);
@@ -89,7 +89,7 @@ TEST_F(BackgroundPicture, WholeShiftsOfTheMapAreExactAndBlackOutside) {
 }
 
 TEST_F(BackgroundPicture, FractionsOfAPixelAreBilinear) {
-  const auto image = noise(4);
+  const auto image = noisePicture(4);
   EXPECT_LE(worstAgainst(draw(viewOf(image, shift(0.5F, 0)), {}), *image, 0.5, 0), 1);
   EXPECT_LE(worstAgainst(draw(viewOf(image, shift(-0.25F, 0.75F)), {}), *image, -0.25, 0.75), 1);
   EXPECT_GT(worstAgainst(draw(viewOf(image, shift(0.5F, 0)), {}), *image, 0.25, 0), 2);
@@ -100,7 +100,7 @@ TEST_F(BackgroundPicture, MapMayPointNowhereAndToAPictureOfAnotherSize) {
   map->uv_px[0] = std::numeric_limits<float>::quiet_NaN();
   map->uv_px[2] = 1e30F;
   map->uv_px[4] = -std::numeric_limits<float>::infinity();
-  const auto image = noise(5, 300, 200);
+  const auto image = noisePicture(5, 300, 200);
   const Image picture = draw(viewOf(image, map), {});
   for (int u = 0; u < 3; ++u) EXPECT_EQ(channel(picture, u, 0, 1), 0);
   for (int c = 0; c < 3; ++c) {
@@ -113,10 +113,10 @@ TEST_F(BackgroundPicture, FollowsANewPictureAndANewMap) {
   const auto show = [&offscreen](const View& view) {
     return offscreen.draw({&view, 1}, {}, flat()).front();
   };
-  const auto first = noise(6);
+  const auto first = noisePicture(6);
   const auto map = shift(1, 0);
   EXPECT_EQ(worstAgainst(show(viewOf(first, map)), *first, 1, 0), 0);
-  const auto second = noise(7);
+  const auto second = noisePicture(7);
   EXPECT_EQ(worstAgainst(show(viewOf(second, map)), *second, 1, 0), 0);
   EXPECT_EQ(worstAgainst(show(viewOf(second, shift(-4, 5))), *second, -4, 5), 0);
   EXPECT_TRUE(sameBytes(show(viewOf(second, nullptr)), *second));

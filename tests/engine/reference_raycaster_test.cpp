@@ -24,22 +24,22 @@ View smallView() {
   return view;
 }
 
-struct Moments {
+struct Blob {
   double area = 0.0;
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
 };
 
-Moments momentsOf(const reference::Picture& picture) {
-  Moments moments;
+Blob blobOf(const reference::Picture& picture) {
+  Blob blob;
   for (int v = 0; v < picture.height; ++v) {
     for (int u = 0; u < picture.width; ++u) {
       if (picture.at(u, v).id < 0) continue;
-      moments.area += 1.0;
-      moments.centre += Eigen::Vector2d(u, v);
+      blob.area += 1.0;
+      blob.centre += Eigen::Vector2d(u, v);
     }
   }
-  moments.centre /= moments.area;
-  return moments;
+  blob.centre /= blob.area;
+  return blob;
 }
 
 }  // namespace
@@ -53,11 +53,11 @@ TEST(ReferenceRaycaster, EllipsoidFillsItsExactOutline) {
   const View view = smallView();
   const auto outline = ellipsoidOutline(e, view);
   ASSERT_TRUE(outline);
-  const Moments moments = momentsOf(reference::raycast(scene, view));
-  EXPECT_NEAR(moments.area / outline->area_px2, 1.0, 0.005);
-  EXPECT_NEAR((moments.centre - outline->centre_px).norm(), 0.0, 0.05);
+  const Blob blob = blobOf(reference::raycast(scene, view));
+  EXPECT_NEAR(blob.area / outline->area_px2, 1.0, 0.005);
+  EXPECT_NEAR((blob.centre - outline->centre_px).norm(), 0.0, 0.05);
   // Twin: the picture of the 3D centre is not the centre of the picture.
-  EXPECT_GT((moments.centre - project(view.camera, view.T_eye_scene * e.centre)).norm(), 0.2);
+  EXPECT_GT((blob.centre - project(view.camera, view.T_eye_scene * e.centre)).norm(), 0.2);
 }
 
 TEST(ReferenceRaycaster, ConeFillsTheHullOfTipAndRim) {

@@ -4,7 +4,7 @@
 namespace slamscope::engine {
 namespace {
 
-constexpr Pinhole kCamera = {
+constexpr Pinhole kEye = {
     .width = 320, .height = 240, .fx = 300.0, .fy = 300.0, .cx = 160.2, .cy = 118.4};
 
 View besides(const View& left, double baseline) {
@@ -37,7 +37,7 @@ Scene everything() {
 class StereoPicture : public PictureTest {};
 
 TEST_F(StereoPicture, WithoutBaselineBothEyesAreTheSameToTheByte) {
-  View view = lookingAt(kCamera, {0.1, -1.2, 0.9}, {0, 0, 0});
+  View view = lookingAt(kEye, {0.1, -1.2, 0.9}, {0, 0, 0});
   auto noise = std::make_shared<Image>(Image{320, 240, {}});
   for (unsigned i = 0; i < 320 * 240 * 4; ++i) {
     noise->rgba.push_back(static_cast<std::uint8_t>((i * 7919U) >> 3U));
@@ -55,7 +55,7 @@ TEST_F(StereoPicture, WithoutBaselineBothEyesAreTheSameToTheByte) {
 }
 
 TEST_F(StereoPicture, DisparityIsFocalLengthTimesBaselineByDepth) {
-  const View left = lookingAt(kCamera, {0, -2, 0.001}, {0, 0, 0});
+  const View left = lookingAt(kEye, {0, -2, 0.001}, {0, 0, 0});
   const double baseline = 0.064;
   const std::array views = {left, besides(left, baseline)};
   for (const double depth : {1.0, 2.0, 6.0}) {
@@ -63,8 +63,8 @@ TEST_F(StereoPicture, DisparityIsFocalLengthTimesBaselineByDepth) {
     scene.ellipsoids = {{{0.1, depth - 2.0, 0}, 0.02 * Eigen::Matrix3d::Identity(), kWhite}};
     const auto pictures = draw(views, scene, flat());
     const double found = momentsOf(pictures[0]).centre.x() - momentsOf(pictures[1]).centre.x();
-    EXPECT_NEAR(found, kCamera.fx * baseline / depth, 0.02);
-    EXPECT_GT(std::abs(found - kCamera.fx * 0.070 / depth), 0.02) << "twin: another baseline";
+    EXPECT_NEAR(found, kEye.fx * baseline / depth, 0.02);
+    EXPECT_GT(std::abs(found - kEye.fx * 0.070 / depth), 0.02) << "twin: another baseline";
   }
 }
 
@@ -75,8 +75,8 @@ TEST_F(StereoPicture, EachEyeHasItsOwnBackgroundAndMap) {
   };
   auto map = std::make_shared<LookupMap>(LookupMap{320, 240, {}});
   map->uv_px.assign(std::size_t{2} * 320 * 240, 100.0F);
-  std::array views = {lookingAt(kCamera, {0, -1, 1}, {0, 0, 0}),
-                      lookingAt(kCamera, {0, -1, 1}, {0, 0, 0})};
+  std::array views = {lookingAt(kEye, {0, -1, 1}, {0, 0, 0}),
+                      lookingAt(kEye, {0, -1, 1}, {0, 0, 0})};
   views[0].background.image = plain(10);
   views[1].background = {plain(200), map};
   const auto pictures = draw(views, {}, flat());
@@ -86,7 +86,7 @@ TEST_F(StereoPicture, EachEyeHasItsOwnBackgroundAndMap) {
 
 TEST_F(StereoPicture, RefusesWhatDoesNotFit) {
   Offscreen offscreen(gpu_, 320, 240, 2);
-  const View view = lookingAt(kCamera, {0, -1, 1}, {0, 0, 0});
+  const View view = lookingAt(kEye, {0, -1, 1}, {0, 0, 0});
   EXPECT_THROW((void)offscreen.draw({&view, 1}, {}), std::invalid_argument);
   std::array views = {view, view};
   views[1].camera.width = 321;

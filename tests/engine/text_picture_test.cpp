@@ -5,20 +5,20 @@
 namespace slamscope::engine {
 namespace {
 
-constexpr Pinhole kCamera = {
+constexpr Pinhole kTextCamera = {
     .width = 200, .height = 120, .fx = 200.0, .fy = 200.0, .cx = 99.5, .cy = 59.5};
 
 View straight() {
   View view;
-  view.camera = kCamera;
+  view.camera = kTextCamera;
   return view;
 }
 
 /// White letters on black, set texel by texel on the CPU at a whole-pixel corner.
 Image typeset(const std::string& text, double height_px, int corner_u, int corner_v) {
   FontAtlas atlas;
-  Image image{kCamera.width, kCamera.height, {}};
-  for (int i = 0; i < kCamera.width * kCamera.height; ++i) {
+  Image image{kTextCamera.width, kTextCamera.height, {}};
+  for (int i = 0; i < kTextCamera.width * kTextCamera.height; ++i) {
     image.rgba.insert(image.rgba.end(), {0, 0, 0, 255});
   }
   for (const GlyphQuad& quad : layoutText(atlas, text, height_px)) {
@@ -79,7 +79,7 @@ TEST_F(TextPicture, HasADarkHaloThatReadsOnWhite) {
 }
 
 TEST_F(TextPicture, NewLettersAppearInLaterFrames) {
-  Offscreen offscreen(gpu_, kCamera.width, kCamera.height);
+  Offscreen offscreen(gpu_, kTextCamera.width, kTextCamera.height);
   const View view = straight();
   Scene scene;
   for (const std::string text : {"abc", "xyz ÄÖÜ", "0123456789\nABCDEFGHIJ"}) {

@@ -65,7 +65,7 @@ struct Expected {
   const char* likely;
 };
 
-class EveryFault : public testing::TestWithParam<Expected> {};
+class EveryFault : public ::testing::TestWithParam<Expected> {};
 
 TEST_P(EveryFault, IsFoundAndNamed) {
   const AuditReport report = auditRun(planted(GetParam().fault, 3));
@@ -76,31 +76,31 @@ TEST_P(EveryFault, IsFoundAndNamed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Catalogue, EveryFault,
-    testing::Values(Expected{"paper", FaultClass::code, "outside the Kalman update"},
-                    Expected{"no-cross-prediction", FaultClass::code, "not multiplied by F"},
-                    Expected{"motion-jacobian-late", FaultClass::code, "heading after the move"},
-                    Expected{"motion-jacobian-swapped", FaultClass::code, "sine and cosine"},
-                    Expected{"motion-jacobian-transposed", FaultClass::code, "F' P F"},
-                    Expected{"bearing-jacobian-1q", FaultClass::code, "-1/q"},
-                    Expected{"bearing-jacobian-sign", FaultClass::code, "it is -1"},
-                    Expected{"stale-linearisation", FaultClass::code, "before the prediction"},
-                    Expected{"wrong-block", FaultClass::code, "another feature's columns"},
-                    Expected{"initialise-uncorrelated", FaultClass::code,
-                             "no covariance with the robot"},
-                    Expected{"initialise-identity", FaultClass::code, "identity"},
-                    Expected{"cross-not-updated", FaultClass::code, "left out of the update"},
-                    Expected{"diagonal-only", FaultClass::code, "blocks on the diagonal"},
-                    Expected{"noise-on-map", FaultClass::code, "added to the features"},
-                    Expected{"single-precision", FaultClass::code, "single precision"},
-                    Expected{"observed-twice", FaultClass::code, "applied twice"},
-                    Expected{"innovation-unwrapped", FaultClass::statistics, "wrapping"},
-                    Expected{"innovation-sign", FaultClass::statistics, "innovation itself"},
-                    Expected{"wrong-association", FaultClass::statistics, "wrong associations"},
-                    Expected{"noise-sigma", FaultClass::code, "sigma was given"},
-                    Expected{"noise-degrees", FaultClass::code, "degrees squared"},
-                    Expected{"noise-9x", FaultClass::code, "multiple of the declared"},
-                    Expected{"noise-unrotated", FaultClass::statistics, "not rotated"}),
-    [](const testing::TestParamInfo<Expected>& planted_one) {
+    ::testing::Values(Expected{"paper", FaultClass::code, "outside the Kalman update"},
+                      Expected{"no-cross-prediction", FaultClass::code, "not multiplied by F"},
+                      Expected{"motion-jacobian-late", FaultClass::code, "heading after the move"},
+                      Expected{"motion-jacobian-swapped", FaultClass::code, "sine and cosine"},
+                      Expected{"motion-jacobian-transposed", FaultClass::code, "F' P F"},
+                      Expected{"bearing-jacobian-1q", FaultClass::code, "-1/q"},
+                      Expected{"bearing-jacobian-sign", FaultClass::code, "it is -1"},
+                      Expected{"stale-linearisation", FaultClass::code, "before the prediction"},
+                      Expected{"wrong-block", FaultClass::code, "another feature's columns"},
+                      Expected{"initialise-uncorrelated", FaultClass::code,
+                               "no covariance with the robot"},
+                      Expected{"initialise-identity", FaultClass::code, "identity"},
+                      Expected{"cross-not-updated", FaultClass::code, "left out of the update"},
+                      Expected{"diagonal-only", FaultClass::code, "blocks on the diagonal"},
+                      Expected{"noise-on-map", FaultClass::code, "added to the features"},
+                      Expected{"single-precision", FaultClass::code, "single precision"},
+                      Expected{"observed-twice", FaultClass::code, "applied twice"},
+                      Expected{"innovation-unwrapped", FaultClass::statistics, "wrapping"},
+                      Expected{"innovation-sign", FaultClass::statistics, "innovation itself"},
+                      Expected{"wrong-association", FaultClass::statistics, "wrong associations"},
+                      Expected{"noise-sigma", FaultClass::code, "sigma was given"},
+                      Expected{"noise-degrees", FaultClass::code, "degrees squared"},
+                      Expected{"noise-9x", FaultClass::code, "multiple of the declared"},
+                      Expected{"noise-unrotated", FaultClass::statistics, "not rotated"}),
+    [](const ::testing::TestParamInfo<Expected>& planted_one) {
       std::string name = planted_one.param.fault;
       std::replace(name.begin(), name.end(), '-', '_');
       return name;

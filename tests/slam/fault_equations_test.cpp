@@ -11,7 +11,7 @@
 namespace slamscope::slam {
 namespace {
 
-const Eigen::Matrix2d kR = Eigen::Vector2d(0.0036, 0.0016).asDiagonal();
+const Eigen::Matrix2d kNoise = Eigen::Vector2d(0.0036, 0.0016).asDiagonal();
 
 /// A posterior from the middle of a healthy run, the whole of P in both triangles.
 EkfState healthyState() {
@@ -29,13 +29,13 @@ Motion someMotion() {
   return Motion::fromVelocity(0.25, 1.2, 0.1, Eigen::Vector2d(9e-4, 3.6e-3).asDiagonal());
 }
 
-Observation reading(const EkfState& state, int index, const Eigen::Vector2d& error) {
+Observation readingOf(const EkfState& state, int index, const Eigen::Vector2d& error) {
   const Eigen::Vector2d feature = state.x.segment<2>(3 + 2 * index);
   return {state.ids[static_cast<std::size_t>(index)],
-          observeFeature(Sensor::range_bearing, state.pose(), feature) + error, kR};
+          observeFeature(Sensor::range_bearing, state.pose(), feature) + error, kNoise};
 }
 
-Eigen::MatrixXd whole(const EkfState& state) {
+Eigen::MatrixXd symmetric(const EkfState& state) {
   return state.P.selfadjointView<Eigen::Lower>();
 }
 
@@ -52,11 +52,11 @@ Beside act(const std::string& fault, Act what) {
     EkfState state = result.before;
     if (what == Act::predict) equations->predict(state, someMotion());
     if (what == Act::update) {
-      const std::vector<Observation> readings{reading(state, 4, {0.05, -0.03}),
-                                              reading(state, 7, {-0.02, 0.04})};
+      const std::vector<Observation> readings{readingOf(state, 4, {0.05, -0.03}),
+                                              readingOf(state, 7, {-0.02, 0.04})};
       equations->update(state, readings);
     }
-    if (what == Act::initialise) equations->initialise(state, {99, {1.3, 0.4}, kR});
+    if (what == Act::initialise) equations->initialise(state, {99, {1.3, 0.4}, kNoise});
     return state;
   };
   result.lawful = run("none");
@@ -75,14 +75,15 @@ Eigen::Matrix3d motionJacobianOf(const std::string& fault, const EkfState& state
 TEST(FaultyPrediction, NoCrossPredictionLeavesTheCrossCovarianceAsItWas) {
   const Beside a = act("no-cross-prediction", Act::predict);
   const auto rest = a.before.size() - 3;
-  EXPECT_EQ(
-      largest(whole(a.faulty).topRightCorner(3, rest) - whole(a.before).topRightCorner(3, rest)),
-      0.0);
-  EXPECT_GT(
-      largest(whole(a.lawful).topRightCorner(3, rest) - whole(a.before).topRightCorner(3, rest)),
-      1e-8);
-  EXPECT_EQ(largest(whole(a.faulty).topLeftCorner(3, 3) - whole(a.lawful).topLeftCorner(3, 3)),
+  EXPECT_EQ(largest(symmetric(a.faulty).topRightCorner(3, rest) -
+                    symmetric(a.before).topRightCorner(3, rest)),
             0.0);
+  EXPECT_GT(largest(symmetric(a.lawful).topRightCorner(3, rest) -
+                    symmetric(a.before).topRightCorner(3, rest)),
+            1e-8);
+  EXPECT_EQ(
+      largest(symmetric(a.faulty).topLeftCorner(3, 3) - symmetric(a.lawful).topLeftCorner(3, 3)),
+      0.0);
 }
 
 TEST(FaultyPrediction, EachJacobianIsTheLawfulOneWithItsBug) {
@@ -103,7 +104,7 @@ TEST(FaultyPrediction, EachJacobianIsTheLawfulOneWithItsBug) {
 
 TEST(FaultyPrediction, NoiseOnMapGrowsTheFeaturesDiagonal) {
   const Beside a = act("noise-on-map", Act::predict);
-  Eigen::MatrixXd growth = whole(a.faulty) - whole(a.lawful);
+  Eigen::MatrixXd growth = symmetric(a.faulty) - symmetric(a.lawful);
   EXPECT_GT(growth.diagonal().tail(growth.rows() - 3).minCoeff(), 0.0);
   growth.diagonal().tail(growth.rows() - 3).setZero();
   EXPECT_EQ(largest(growth), 0.0);
@@ -115,8 +116,9 @@ TEST(FaultyPrediction, UnrotatedNoiseIsThatOfTheBodyWhileTheRotatedOneIsDeclared
   const Eigen::Matrix3d declared = makeFault("noise-unrotated")->predict(faulty, someMotion());
   const Eigen::Matrix3d Q = makeFault("none")->predict(lawful, someMotion());
   EXPECT_EQ(largest(declared - Q), 0.0);
-  EXPECT_LT(largest((whole(faulty) - whole(lawful)).topLeftCorner(3, 3) - (someMotion().M - Q)),
-            1e-15);
+  EXPECT_LT(
+      largest((symmetric(faulty) - symmetric(lawful)).topLeftCorner(3, 3) - (someMotion().M - Q)),
+      1e-15);
   EXPECT_GT(largest(someMotion().M - Q), 1e-7);
 }
 
@@ -159,17 +161,17 @@ TEST(FaultyObservation, WrongBlockIsTheNextOneAndTheLastOneWraps) {
 TEST(FaultyInitialisation, UncorrelatedFeatureKeepsItsOwnCovariance) {
   const Beside a = act("initialise-uncorrelated", Act::initialise);
   const auto old = a.before.size();
-  EXPECT_EQ(largest(whole(a.faulty).bottomLeftCorner(2, old)), 0.0);
-  EXPECT_GT(largest(whole(a.lawful).bottomLeftCorner(2, old)), 1e-5);
-  EXPECT_EQ(largest((whole(a.faulty) - whole(a.lawful)).bottomRightCorner(2, 2)), 0.0);
+  EXPECT_EQ(largest(symmetric(a.faulty).bottomLeftCorner(2, old)), 0.0);
+  EXPECT_GT(largest(symmetric(a.lawful).bottomLeftCorner(2, old)), 1e-5);
+  EXPECT_EQ(largest((symmetric(a.faulty) - symmetric(a.lawful)).bottomRightCorner(2, 2)), 0.0);
 }
 
 TEST(FaultyInitialisation, IdentityFeatureHasTheIdentityAndNothingElse) {
   const Beside a = act("initialise-identity", Act::initialise);
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(2, a.faulty.size());
   expected.rightCols<2>().setIdentity();
-  EXPECT_EQ(largest(whole(a.faulty).bottomRows(2) - expected), 0.0);
-  EXPECT_GT(largest(whole(a.lawful).bottomRows(2) - expected), 0.5);
+  EXPECT_EQ(largest(symmetric(a.faulty).bottomRows(2) - expected), 0.0);
+  EXPECT_GT(largest(symmetric(a.lawful).bottomRows(2) - expected), 0.5);
 }
 
 TEST(FaultyUpdate, ThePapersFaultTouchesOneBlock) {
@@ -185,7 +187,7 @@ TEST(FaultyUpdate, ThePapersFaultTouchesOneBlock) {
     lawful.step();
   }
   const int row = faulty.filter().state().rowOf(2).value();
-  Eigen::MatrixXd change = whole(faulty.filter().state()) - whole(lawful.filter().state());
+  Eigen::MatrixXd change = symmetric(faulty.filter().state()) - symmetric(lawful.filter().state());
   EXPECT_GT(change.block(row, row, 2, 2).diagonal().minCoeff(), 0.0);
   Eigen::MatrixXd one(Eigen::MatrixXd::Zero(1, 1));
   one(0, 0) = largest(change.block(row, row, 2, 2));
@@ -196,16 +198,17 @@ TEST(FaultyUpdate, ThePapersFaultTouchesOneBlock) {
 TEST(FaultyUpdate, CrossNotUpdatedLeavesTheCrossCovarianceOnly) {
   const Beside a = act("cross-not-updated", Act::update);
   const auto rest = a.before.size() - 3;
-  const auto cross = [&](const EkfState& s) { return whole(s).topRightCorner(3, rest).eval(); };
+  const auto cross = [&](const EkfState& s) { return symmetric(s).topRightCorner(3, rest).eval(); };
   EXPECT_EQ(largest(cross(a.faulty) - cross(a.before)), 0.0);
   EXPECT_GT(largest(cross(a.lawful) - cross(a.before)), 1e-7);
-  EXPECT_EQ(largest((whole(a.faulty) - whole(a.lawful)).bottomRightCorner(rest, rest)), 0.0);
+  EXPECT_EQ(largest((symmetric(a.faulty) - symmetric(a.lawful)).bottomRightCorner(rest, rest)),
+            0.0);
 }
 
 TEST(FaultyUpdate, DiagonalOnlyUpdatesBlocksOfTheDiagonal) {
   const Beside a = act("diagonal-only", Act::update);
-  Eigen::MatrixXd change = whole(a.faulty) - whole(a.before);
-  const Eigen::MatrixXd error = whole(a.faulty) - whole(a.lawful);
+  Eigen::MatrixXd change = symmetric(a.faulty) - symmetric(a.before);
+  const Eigen::MatrixXd error = symmetric(a.faulty) - symmetric(a.lawful);
   EXPECT_EQ(largest(error.topLeftCorner(3, 3)), 0.0);
   change.topLeftCorner(3, 3).setZero();
   for (int row = 3; row < a.before.size(); row += 2) {
@@ -218,9 +221,9 @@ TEST(FaultyUpdate, DiagonalOnlyUpdatesBlocksOfTheDiagonal) {
 
 TEST(FaultyUpdate, SinglePrecisionIsRightToSixDigitsAndNotSymmetric) {
   const Beside a = act("single-precision", Act::update);
-  const double scale = largest(whole(a.lawful));
-  EXPECT_LT(largest(a.faulty.P - whole(a.lawful)), 1e-5 * scale);
-  EXPECT_GT(largest(a.faulty.P - whole(a.lawful)), 1e-9 * scale);
+  const double scale = largest(symmetric(a.lawful));
+  EXPECT_LT(largest(a.faulty.P - symmetric(a.lawful)), 1e-5 * scale);
+  EXPECT_GT(largest(a.faulty.P - symmetric(a.lawful)), 1e-9 * scale);
   EXPECT_GT(largest(a.faulty.P - a.faulty.P.transpose()), 1e-9 * scale);
   EXPECT_EQ(largest(a.faulty.P - a.faulty.P.cast<float>().cast<double>()), 0.0);
 }
@@ -228,11 +231,11 @@ TEST(FaultyUpdate, SinglePrecisionIsRightToSixDigitsAndNotSymmetric) {
 TEST(FaultyUpdate, ObservedTwiceIsASecondUpdateWithTheFirstObservation) {
   const Beside a = act("observed-twice", Act::update);
   EkfState twice = a.lawful;
-  const std::vector<Observation> first{reading(a.before, 4, {0.05, -0.03})};
+  const std::vector<Observation> first{readingOf(a.before, 4, {0.05, -0.03})};
   makeFault("none")->update(twice, first);
-  EXPECT_EQ(largest(whole(twice) - whole(a.faulty)), 0.0);
+  EXPECT_EQ(largest(symmetric(twice) - symmetric(a.faulty)), 0.0);
   EXPECT_EQ(largest(twice.x - a.faulty.x), 0.0);
-  EXPECT_GT(largest(whole(a.lawful) - whole(a.faulty)), 1e-7);
+  EXPECT_GT(largest(symmetric(a.lawful) - symmetric(a.faulty)), 1e-7);
 }
 
 TEST(FaultyInnovation, SignAndWrap) {
@@ -255,22 +258,22 @@ TEST(FaultyInnovation, SignAndWrap) {
 
 TEST(FaultyNoise, IsTheOneOfItsName) {
   const auto noise = [&](const char* fault) -> Eigen::Matrix2d {
-    return makeFault(fault)->observationNoise(kR);
+    return makeFault(fault)->observationNoise(kNoise);
   };
   const double degrees = 180.0 / std::numbers::pi;
   EXPECT_LT(
       largest(noise("noise-sigma") - Eigen::Matrix2d(Eigen::Vector2d(0.06, 0.04).asDiagonal())),
       1e-15);
-  EXPECT_DOUBLE_EQ(noise("noise-degrees")(1, 1), kR(1, 1) * degrees * degrees);
-  EXPECT_DOUBLE_EQ(noise("noise-degrees")(0, 0), kR(0, 0));
-  EXPECT_EQ(largest(noise("noise-9x") - 9.0 * kR), 0.0);
-  EXPECT_EQ(largest(noise("none") - kR), 0.0);
+  EXPECT_DOUBLE_EQ(noise("noise-degrees")(1, 1), kNoise(1, 1) * degrees * degrees);
+  EXPECT_DOUBLE_EQ(noise("noise-degrees")(0, 0), kNoise(0, 0));
+  EXPECT_EQ(largest(noise("noise-9x") - 9.0 * kNoise), 0.0);
+  EXPECT_EQ(largest(noise("none") - kNoise), 0.0);
 }
 
 TEST(FaultyAssociation, TakesOneReadingInTenForTheNearestNeighbour) {
   const EkfState state = healthyState();
   const auto equations = makeFault("wrong-association", {Sensor::range_bearing, {}, 7});
-  const std::vector<Observation> readings{reading(state, 4, Eigen::Vector2d::Zero())};
+  const std::vector<Observation> readings{readingOf(state, 4, Eigen::Vector2d::Zero())};
   int wrong = 0;
   FeatureId taken_for = 0;
   for (int k = 0; k < 4000; ++k) {
@@ -293,7 +296,7 @@ TEST(FaultyAssociation, MixesUpTwoReadingsAndNeverReadsAFeatureTwice) {
   const auto equations = makeFault("wrong-association", {Sensor::range_bearing, {}, 7});
   std::vector<Observation> readings;
   for (int index = 0; index < 6; ++index) {
-    readings.push_back(reading(state, index, Eigen::Vector2d::Zero()));
+    readings.push_back(readingOf(state, index, Eigen::Vector2d::Zero()));
   }
   int wrong = 0;
   for (int k = 0; k < 1000; ++k) {

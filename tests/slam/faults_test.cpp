@@ -58,7 +58,7 @@ bool positive(const EkfState& state) {
   return Eigen::LLT<Eigen::MatrixXd>(whole(state)).info() == Eigen::Success;
 }
 
-class EachFault : public testing::TestWithParam<std::string> {};
+class EachFault : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EachFault, ChangesTheRun) {
   for (const UpdateMode update : {UpdateMode::batch, UpdateMode::sequential}) {
@@ -83,7 +83,7 @@ std::vector<std::string> faultsButNone() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, EachFault, testing::ValuesIn(faultsButNone()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, EachFault, ::testing::ValuesIn(faultsButNone()),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class FilterLog : public testing::Test {
+class FilterLog : public ::testing::Test {
  protected:
   ~FilterLog() override { fs::remove(path_); }
   [[nodiscard]] std::vector<SnapshotPtr> records() const {

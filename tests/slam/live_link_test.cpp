@@ -14,11 +14,10 @@ namespace slamscope::slam {
 namespace {
 
 using namespace std::chrono_literals;
-using State = LinkStatus::State;
 
-const std::string kHeader = "{\"format\": \"slamscope\", \"version\": 1, \"robot\": \"r\"}\n";
+const std::string kLinkHeader = "{\"format\": \"slamscope\", \"version\": 1, \"robot\": \"r\"}\n";
 
-std::string line(int time, Event event = Event::step) {
+std::string recordAt(int time, Event event = Event::step) {
   Snapshot snapshot;
   snapshot.time = std::chrono::seconds(time);
   snapshot.event = event;
@@ -71,7 +70,7 @@ struct Times {
 };
 
 /// Polls until nothing more comes; loopback delivers within the wait.
-void drain(LiveLink& link) {
+void drainLink(LiveLink& link) {
   for (int quiet = 0; quiet < 2;) quiet = link.poll(20ms) == 0 ? quiet + 1 : 0;
 }
 
@@ -83,20 +82,20 @@ TEST(LiveLink, PublishesEveryCompleteLineOfAStreamInOrder) {
   LiveLink link(pipe.ends[0]);
   Times times(link);
   EXPECT_EQ(link.poll(0ms), 0U);
-  EXPECT_EQ(link.status().state, State::waiting);
-  writer.write(kHeader + line(1) + line(2) + line(3).substr(0, 20));
+  EXPECT_EQ(link.status().state, LinkStatus::State::waiting);
+  writer.write(kLinkHeader + recordAt(1) + recordAt(2) + recordAt(3).substr(0, 20));
   EXPECT_EQ(link.poll(1s), 2U);
-  EXPECT_EQ(link.status().state, State::connected);
+  EXPECT_EQ(link.status().state, LinkStatus::State::connected);
   EXPECT_EQ(link.status().header.robot, "r");
-  writer.write(line(3).substr(20));
+  writer.write(recordAt(3).substr(20));
   EXPECT_EQ(link.poll(1s), 1U);
-  std::string last = line(4);
+  std::string last = recordAt(4);
   last.pop_back();
   writer.write(last);
   writer.close();
-  drain(link);
+  drainLink(link);
   EXPECT_EQ(times.seen, (Seconds{1, 2, 3, 4}));
-  EXPECT_EQ(link.status().state, State::ended);
+  EXPECT_EQ(link.status().state, LinkStatus::State::ended);
   EXPECT_EQ(link.status().records, 4U);
   EXPECT_EQ(link.status().unreadable, 0U);
   EXPECT_EQ(link.poll(0ms), 0U);
@@ -107,8 +106,9 @@ TEST(LiveLink, SkipsAndCountsUnreadableLinesAndStaysAlive) {
   Writer writer(pipe.ends[1]);
   LiveLink link(pipe.ends[0]);
   Times times(link);
-  writer.write(kHeader + line(5) + "Traceback: oops\n" + line(6) + line(4) + line(7));
-  drain(link);
+  writer.write(kLinkHeader + recordAt(5) + "Traceback: oops\n" + recordAt(6) + recordAt(4) +
+               recordAt(7));
+  drainLink(link);
   EXPECT_EQ(times.seen, (Seconds{5, 6, 7}));
   EXPECT_EQ(link.status().unreadable, 2U);
   EXPECT_EQ(link.status().last_error,
@@ -121,8 +121,8 @@ TEST(LiveLink, JoinedInTheMiddleOfALineReadsFromTheNextOn) {
   Writer writer(pipe.ends[1]);
   LiveLink link(pipe.ends[0]);
   Times times(link);
-  writer.write(line(1).substr(30) + line(2));
-  drain(link);
+  writer.write(recordAt(1).substr(30) + recordAt(2));
+  drainLink(link);
   EXPECT_EQ(times.seen, (Seconds{2}));
   EXPECT_EQ(link.status().unreadable, 0U);
 }
@@ -132,8 +132,9 @@ TEST(LiveLink, AHeaderOrAnInitialRecordInAStreamBeginsANewRun) {
   Writer writer(pipe.ends[1]);
   LiveLink link(pipe.ends[0]);
   Times times(link);
-  writer.write(kHeader + line(8) + kHeader + line(1) + line(2) + line(0, Event::initial));
-  drain(link);
+  writer.write(kLinkHeader + recordAt(8) + kLinkHeader + recordAt(1) + recordAt(2) +
+               recordAt(0, Event::initial));
+  drainLink(link);
   EXPECT_EQ(times.seen, (Seconds{8, 1, 2, 0}));
   EXPECT_EQ(link.status().runs, 3U);
   EXPECT_EQ(link.status().unreadable, 0U);
@@ -143,20 +144,20 @@ TEST(LiveLink, ASourceThatDiesMayComeBack) {
   LiveLink link("tcp://127.0.0.1:0");
   Times times(link);
   EXPECT_GT(link.port(), 0);
-  EXPECT_EQ(link.status().state, State::waiting);
+  EXPECT_EQ(link.status().state, LinkStatus::State::waiting);
   {
     Writer writer(connectTo(link.port()));
-    writer.write(kHeader + line(8) + line(9).substr(0, 20));
-    drain(link);
-    EXPECT_EQ(link.status().state, State::connected);
+    writer.write(kLinkHeader + recordAt(8) + recordAt(9).substr(0, 20));
+    drainLink(link);
+    EXPECT_EQ(link.status().state, LinkStatus::State::connected);
   }
-  drain(link);
-  EXPECT_EQ(link.status().state, State::waiting);
+  drainLink(link);
+  EXPECT_EQ(link.status().state, LinkStatus::State::waiting);
   EXPECT_EQ(link.status().unreadable, 1U) << "the line it died in";
   Writer again(connectTo(link.port()));
-  again.write(kHeader + line(1));
-  drain(link);
-  EXPECT_EQ(link.status().state, State::connected);
+  again.write(kLinkHeader + recordAt(1));
+  drainLink(link);
+  EXPECT_EQ(link.status().state, LinkStatus::State::connected);
   EXPECT_EQ(times.seen, (Seconds{8, 1}));
   EXPECT_EQ(link.status().connections, 2U);
   EXPECT_EQ(link.status().runs, 2U);
@@ -166,15 +167,15 @@ TEST(LiveLink, TheNewestConnectionThatSendsSomethingWins) {
   LiveLink link("tcp://:0");
   Times times(link);
   Writer first(connectTo(link.port()));
-  first.write(line(1));
-  drain(link);
+  first.write(recordAt(1));
+  drainLink(link);
   Writer silent(connectTo(link.port()));
-  drain(link);
-  first.write(line(2));
-  drain(link);
+  drainLink(link);
+  first.write(recordAt(2));
+  drainLink(link);
   EXPECT_EQ(times.seen, (Seconds{1, 2})) << "a silent connection changes nothing";
-  silent.write(line(0));
-  drain(link);
+  silent.write(recordAt(0));
+  drainLink(link);
   EXPECT_EQ(times.seen, (Seconds{1, 2, 0}));
   EXPECT_EQ(link.status().connections, 2U);
 }
@@ -184,10 +185,10 @@ TEST(LiveLink, PublishesALotWithinAFewPolls) {
   Times times(link);
   Writer writer(connectTo(link.port()));
   std::string text;
-  for (int k = 0; k < 100; ++k) text += line(k);
+  for (int k = 0; k < 100; ++k) text += recordAt(k);
   for (int round = 0; round < 10; ++round) {
-    writer.write(kHeader + text);
-    drain(link);
+    writer.write(kLinkHeader + text);
+    drainLink(link);
   }
   EXPECT_EQ(times.seen.size(), 1000U);
   EXPECT_EQ(link.status().runs, 10U);

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Matrices = std::vector<Eigen::MatrixXd>;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Three steps of a map that grows by a feature each; P is not quite symmetric.
 struct Growing {
@@ -33,7 +33,7 @@ struct Growing {
   [[nodiscard]] Matrices padded(const Matrices& steps) const {
     Matrices result;
     for (const Eigen::MatrixXd& step : steps) {
-      result.emplace_back(Eigen::MatrixXd::Constant(7, step.cols() == 1 ? 1 : 7, kNan));
+      result.emplace_back(Eigen::MatrixXd::Constant(7, step.cols() == 1 ? 1 : 7, kNotANumber));
       result.back().topLeftCorner(step.rows(), step.cols()) = step;
     }
     return result;
@@ -41,7 +41,7 @@ struct Growing {
   Matrices x, P, d;
 };
 
-class MatRun : public testing::Test {
+class MatRun : public ::testing::Test {
  protected:
   MatRun() { fs::create_directories(folder_); }
   ~MatRun() override { fs::remove_all(folder_); }
@@ -196,7 +196,7 @@ TEST_F(MatRun, CellsMadeInAdvanceAreLeftOut) {
 
 TEST_F(MatRun, ANanInTheMapIsReadAndNoPadding) {
   auto [x, P, d] = growing_;
-  P[2](4, 3) = kNan;
+  P[2](4, 3) = kNotANumber;
   saveMat(path(), {matStack(growing_.padded(x), "x"), matStack(growing_.padded(P), "P")});
   const auto records = read();
   EXPECT_EQ(records[2]->featureCount(), 2);

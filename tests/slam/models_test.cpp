@@ -18,7 +18,7 @@ using testing::centralDifferences;
 using testing::kTolerance;
 using testing::relativeDifference;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 constexpr Sensor kSensors[] = {Sensor::range_bearing, Sensor::relative_position};
 
 Eigen::VectorXd minusPose(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -70,7 +70,7 @@ TEST(Motion, ArcAgreesWithFineIntegration) {
 }
 
 TEST(Motion, HalfTurnEndsOnADiameter) {
-  const Eigen::Vector3d arc = arcIncrement({kPi, kPi}, 1.0);
+  const Eigen::Vector3d arc = arcIncrement({kHalfTurn, kHalfTurn}, 1.0);
   EXPECT_NEAR(arc[0], 0.0, 1e-15);
   EXPECT_NEAR(arc[1], 2.0, 1e-15);
 }
@@ -126,7 +126,7 @@ TEST(Motion, ControlNoiseIsMappedByTheJacobian) {
 }
 
 TEST(Observation, ReadsRangeAndBearing) {
-  const Eigen::Vector3d pose(1.0, 2.0, kPi / 2.0);
+  const Eigen::Vector3d pose(1.0, 2.0, kHalfTurn / 2.0);
   const Eigen::Vector2d z = observeFeature(Sensor::range_bearing, pose, {1.0, 5.0});
   EXPECT_NEAR(z[0], 3.0, 1e-15);
   EXPECT_NEAR(z[1], 0.0, 1e-15);
@@ -195,7 +195,7 @@ TEST(Observation, InverseModelInverts) {
 TEST(Observation, DifferenceOfBearingsWraps) {
   const Eigen::Vector2d d = observationDifference(Sensor::range_bearing, {2.0, 3.1}, {1.5, -3.1});
   EXPECT_NEAR(d[0], 0.5, 1e-15);
-  EXPECT_NEAR(d[1], 6.2 - 2.0 * kPi, 1e-14);
+  EXPECT_NEAR(d[1], 6.2 - 2.0 * kHalfTurn, 1e-14);
   const Eigen::Vector2d metres =
       observationDifference(Sensor::relative_position, {2.0, 3.1}, {1.5, -3.1});
   EXPECT_NEAR(metres[1], 6.2, 1e-15);

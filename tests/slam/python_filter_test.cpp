@@ -15,7 +15,6 @@ namespace slamscope::slam {
 namespace {
 
 using namespace std::chrono_literals;
-using State = LinkStatus::State;
 
 /// The true map of tests/python/ekf.py.
 const std::map<FeatureId, Eigen::Vector2d> kFeatures{
@@ -82,7 +81,7 @@ double distanceFromTruth(const Snapshot& snapshot, const Eigen::Vector2d& offset
 void pollFor(LiveLink& link, std::uint64_t records) {
   for (int silent = 0; link.status().records < records && silent < 20;) {
     silent = link.poll(1s) == 0 ? silent + 1 : 0;
-    if (link.status().state == State::ended) return;
+    if (link.status().state == LinkStatus::State::ended) return;
   }
 }
 
@@ -95,7 +94,7 @@ TEST(PythonFilter, FeedsTheStreamWithACorrectMap) {
   pollFor(link, 401);
   ASSERT_TRUE(last);
   EXPECT_EQ(link.status().records, 400U);
-  EXPECT_EQ(link.status().state, State::ended);
+  EXPECT_EQ(link.status().state, LinkStatus::State::ended);
   EXPECT_EQ(link.status().unreadable, 0U) << link.status().last_error;
   EXPECT_EQ(last->event, Event::step);
   EXPECT_GE(last->featureCount(), 3);
@@ -117,8 +116,8 @@ TEST(PythonFilter, MayBeKilledAndStartedAgainAndStartBeforeTheViewer) {
   ASSERT_GE(link.status().records, 20U);
   const auto before = last->time;
   first.kill();
-  for (int k = 0; k < 20 && link.status().state != State::waiting; ++k) link.poll(1s);
-  EXPECT_EQ(link.status().state, State::waiting);
+  for (int k = 0; k < 20 && link.status().state != LinkStatus::State::waiting; ++k) link.poll(1s);
+  EXPECT_EQ(link.status().state, LinkStatus::State::waiting);
   const std::uint64_t records = link.status().records;
   const PythonFilter second({"--rate", "200", "--tcp", address});
   pollFor(link, records + 1);

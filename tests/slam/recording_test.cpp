@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 /// A folder of small text files, gone with the test.
-class RecordingFiles : public testing::Test {
+class RecordingFiles : public ::testing::Test {
  protected:
   RecordingFiles() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ = fs::temp_directory_path() /
               ("slamscope_" + std::string(info->name()) + std::to_string(::getpid()));
     fs::create_directories(folder_);

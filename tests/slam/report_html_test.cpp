@@ -39,7 +39,7 @@ Audited audited(const SimulationOptions& options,
   return result;
 }
 
-Audited faulty() {
+Audited faultyRun() {
   SimulationOptions options = oneLoop(1);
   options.fault = "paper";
   options.fault_features = {8};
@@ -95,7 +95,7 @@ std::vector<double> decoded(const Json& data, const std::string& text) {
 }
 
 TEST(AuditPage, SaysWhatTheTextSays) {
-  const Audited run = faulty();
+  const Audited run = faultyRun();
   const std::string page = reportHtml(run.report, run.series, "run.jsonl");
   EXPECT_TRUE(page.starts_with("<!doctype html>"));
   EXPECT_EQ(count(page, "<h1>Laws are broken: code fault</h1>"), 1U);
@@ -118,7 +118,7 @@ TEST(AuditPage, OfAHealthyRunSaysSo) {
 }
 
 TEST(AuditPage, FetchesNothing) {
-  const Audited run = faulty();
+  const Audited run = faultyRun();
   const std::string page = reportHtml(run.report, run.series, "run.jsonl");
   EXPECT_TRUE(fetched(page).empty()) << fetched(page).front();
   for (const char* bad : {"<script src='x.js'>", "<a href=\"https://a.b\">", "url(font.woff)",
@@ -141,14 +141,14 @@ TEST(AuditPage, NamesCannotLeaveTheirPlace) {
 }
 
 TEST(AuditPage, HoldsTheReportForPrograms) {
-  const Audited run = faulty();
+  const Audited run = faultyRun();
   const Json report = embedded(reportHtml(run.report, run.series, "run"), "report");
   EXPECT_EQ(report["verdict"], "violation");
   EXPECT_EQ(report["laws"].size(), static_cast<std::size_t>(kLawCount));
 }
 
 TEST(AuditPage, DataAreTheSeriesToAThousandth) {
-  const Audited run = faulty();
+  const Audited run = faultyRun();
   const std::vector<SeriesRecord> records = run.series.records();
   const Json data = embedded(reportHtml(run.report, run.series, "run"), "data");
   ASSERT_EQ(data["kept"].size(), records.size());

@@ -30,10 +30,10 @@ std::string line(int time, std::vector<FeatureId> ids = {}, Event event = Event:
   return formatRecord(snapshot) + "\n";
 }
 
-class RunFile : public testing::Test {
+class RunFile : public ::testing::Test {
  protected:
   RunFile() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ = fs::temp_directory_path() /
               ("slamscope_" + std::string(info->name()) + std::to_string(::getpid()));
     fs::create_directories(folder_);
@@ -279,7 +279,7 @@ TEST_F(RunFile, BrokenNumbersAreReadable) {
       "");
 }
 
-class Source : public Subject {
+class SentRun : public Subject {
  public:
   void send(Event event, int time) const {
     auto snapshot = std::make_shared<Snapshot>();
@@ -291,7 +291,7 @@ class Source : public Subject {
 };
 
 TEST_F(RunFile, RecorderWritesTheEventsAskedFor) {
-  Source source;
+  SentRun source;
   Recorder steps(source, path("steps.jsonl"), {});
   Recorder all(source, path("all.jsonl.zst"), {}, kRecordAll);
   for (const Event event : {Event::initial, Event::predict, Event::update, Event::initialise,

@@ -130,7 +130,7 @@ TEST(RecordingRun, RefusesNoiseThatIsNone) {
   EXPECT_THROW(RecordingRun(Recording(), {.odometry_sigma = {-1, 0, 0}}), std::invalid_argument);
 }
 
-class MrclamRun : public testing::TestWithParam<int> {};
+class MrclamRun : public ::testing::TestWithParam<int> {};
 
 TEST_P(MrclamRun, FindsAllFeaturesWithinTheFloors) {
   const auto folder = recordedData("mrclam");
@@ -148,7 +148,7 @@ TEST_P(MrclamRun, FindsAllFeaturesWithinTheFloors) {
     EXPECT_LT(run.filter().counters().gated_out, 20U) << "rejecting good sightings is divergence";
   }
 }
-INSTANTIATE_TEST_SUITE_P(Robots, MrclamRun, testing::Range(1, 6));
+INSTANTIATE_TEST_SUITE_P(Robots, MrclamRun, ::testing::Range(1, 6));
 
 TEST(MrclamScore, RejectsAFilterThatBelievesItsOdometryTooMuch) {
   const auto folder = recordedData("mrclam");

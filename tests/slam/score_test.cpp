@@ -12,20 +12,20 @@
 namespace slamscope::slam {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+using Layout = std::vector<Eigen::Vector2d>;
 
-class Source : public Subject {
+class ScoredRun : public Subject {
  public:
   void send(const Snapshot& snapshot) { publish(std::make_shared<Snapshot>(snapshot)); }
 };
 
-Points randomPoints(int count, RandomSource& random) {
-  Points points;
+Layout randomLayout(int count, RandomSource& random) {
+  Layout points;
   for (int k = 0; k < count; ++k) points.emplace_back(random.uniform(-3, 3), random.uniform(-3, 3));
   return points;
 }
 
-double squares(const Points& a, const Points& b, const Alignment& alignment) {
+double squares(const Layout& a, const Layout& b, const Alignment& alignment) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += (alignment(a[k]) - b[k]).squaredNorm();
   return sum;
@@ -36,8 +36,8 @@ TEST(Alignment, RecoversARigidMotion) {
   for (int k = 0; k < 100; ++k) {
     const Alignment applied{random.uniform(-3.1, 3.1),
                             {random.uniform(-5, 5), random.uniform(-5, 5)}};
-    const Points points = randomPoints(2 + k % 10, random);
-    Points moved;
+    const Layout points = randomLayout(2 + k % 10, random);
+    Layout moved;
     for (const Eigen::Vector2d& p : points) moved.push_back(applied(p));
     const Alignment found = alignRigid(points, moved);
     EXPECT_NEAR(std::cos(found.angle - applied.angle), 1.0, 1e-12);
@@ -47,8 +47,8 @@ TEST(Alignment, RecoversARigidMotion) {
 
 TEST(Alignment, IsTheLeastSquaresOne) {
   RandomSource random(2);
-  const Points a = randomPoints(8, random);
-  const Points b = randomPoints(8, random);
+  const Layout a = randomLayout(8, random);
+  const Layout b = randomLayout(8, random);
   const Alignment best = alignRigid(a, b);
   const double least = squares(a, b, best);
   for (const double step : {-1e-3, 1e-3}) {
@@ -65,20 +65,20 @@ TEST(Alignment, IsTheLeastSquaresOne) {
 }
 
 TEST(Alignment, DoesNotScaleOrMirror) {
-  const Points square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  const Points larger{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+  const Layout square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const Layout larger{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
   EXPECT_NEAR(squares(square, larger, alignRigid(square, larger)), 4 * 0.5, 1e-12);
-  const Points flag{{0, 0}, {2, 0}, {2, 1}};
-  const Points mirrored{{0, 0}, {2, 0}, {2, -1}};
+  const Layout flag{{0, 0}, {2, 0}, {2, 1}};
+  const Layout mirrored{{0, 0}, {2, 0}, {2, -1}};
   EXPECT_GT(squares(flag, mirrored, alignRigid(flag, mirrored)), 0.1);
 }
 
 TEST(Alignment, OfOnePointOnlyTranslates) {
-  const Alignment alignment = alignRigid(Points{{1, 2}}, Points{{4, 6}});
+  const Alignment alignment = alignRigid(Layout{{1, 2}}, Layout{{4, 6}});
   EXPECT_EQ(alignment.angle, 0.0);
   EXPECT_EQ(alignment.translation, Eigen::Vector2d(3, 4));
-  EXPECT_THROW((void)alignRigid(Points{}, Points{}), std::invalid_argument);
-  EXPECT_THROW((void)alignRigid(Points{{1, 2}}, Points{}), std::invalid_argument);
+  EXPECT_THROW((void)alignRigid(Layout{}, Layout{}), std::invalid_argument);
+  EXPECT_THROW((void)alignRigid(Layout{{1, 2}}, Layout{}), std::invalid_argument);
 }
 
 /// A run whose map is the truth turned by 90° and shifted, with feature 3 off by 0.3 m.
@@ -95,7 +95,7 @@ Snapshot turned(int k) {
 }
 
 TEST(Scorer, AlignsFeaturesAndPathEachByItsOwn) {
-  Source source;
+  ScoredRun source;
   const Scorer scorer(source);
   for (int k = 0; k < 10; ++k) source.send(turned(k));
   const Score score = scorer.score();
@@ -109,7 +109,7 @@ TEST(Scorer, AlignsFeaturesAndPathEachByItsOwn) {
 }
 
 TEST(Scorer, TakesTheLastSampleOfATimeAndOnlyTheEventsAskedFor) {
-  Source source;
+  ScoredRun source;
   const Scorer scorer(source);
   Snapshot wrong = turned(1);
   wrong.pose = {100, 100, 0};
@@ -123,7 +123,7 @@ TEST(Scorer, TakesTheLastSampleOfATimeAndOnlyTheEventsAskedFor) {
 }
 
 TEST(Scorer, SaysNothingWhereThereIsNoTruth) {
-  Source source;
+  ScoredRun source;
   const Scorer scorer(source);
   EXPECT_EQ(scorer.score().features_found, 0);
   Snapshot s = turned(0);

@@ -13,7 +13,8 @@
 namespace slamscope::slam {
 namespace {
 
-std::vector<SnapshotPtr> run(const SimulationOptions& options, EventSet events = {Event::step}) {
+std::vector<SnapshotPtr> simulated(const SimulationOptions& options,
+                                   EventSet events = {Event::step}) {
   Simulation simulation(options);
   std::vector<SnapshotPtr> log;
   const Subscription subscription =
@@ -70,7 +71,7 @@ TEST(Simulation, StartsWithTheFirstClusterOnlyAndMeetsTheOthersWhileDriving) {
     SimulationOptions options;
     options.seed = seed;
     options.loops = 1;
-    const auto log = run(options);
+    const auto log = simulated(options);
     EXPECT_EQ(log.front()->ids, (std::vector<FeatureId>{1, 2, 3, 4, 5})) << seed;
     bool two_clusters = false;
     for (const SnapshotPtr& s : log) two_clusters = two_clusters || s->ids.size() == 10;
@@ -86,7 +87,7 @@ TEST(Simulation, ClustersAreThePapersThree) {
     options.loops = 1;
     ClusterTracker tracker;
     int repartitions = 0;
-    for (const SnapshotPtr& s : run(options)) {
+    for (const SnapshotPtr& s : simulated(options)) {
       repartitions += tracker.update(*s).repartitioned ? 1 : 0;
     }
     ASSERT_EQ(tracker.current().count(), 3) << seed;
@@ -96,12 +97,12 @@ TEST(Simulation, ClustersAreThePapersThree) {
 }
 
 TEST(Simulation, IsReproducible) {
-  const auto one = run({});
-  const auto two = run({});
+  const auto one = simulated({});
+  const auto two = simulated({});
   ASSERT_EQ(one.size(), two.size());
   EXPECT_EQ(one.back()->features, two.back()->features);
   EXPECT_EQ(one.back()->covariance.dense(), two.back()->covariance.dense());
-  const auto other = run({.seed = 2});
+  const auto other = simulated({.seed = 2});
   EXPECT_NE(one.back()->features, other.back()->features);
 }
 
@@ -120,7 +121,7 @@ TEST(Simulation, EverySnapshotCarriesItsTruth) {
 }
 
 TEST(Simulation, AllEventsAreThereForWhoWantsThem) {
-  const auto log = run({.loops = 1}, EventSet::all());
+  const auto log = simulated({.loops = 1}, EventSet::all());
   EXPECT_EQ(log.front()->event, Event::initial);
   int initialised = 0;
   for (const SnapshotPtr& s : log) initialised += s->event == Event::initialise ? 1 : 0;

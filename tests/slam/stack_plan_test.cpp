@@ -14,7 +14,7 @@ StackPlan plan(const Shape& x, const Shape& P, StepAxis usual = kFirst) {
   return planStack(Stacked{x, usual}, {P, usual});
 }
 
-std::string errorOf(const std::optional<Stacked>& x, const Shape& P) {
+std::string refusalOf(const std::optional<Stacked>& x, const Shape& P) {
   try {
     static_cast<void>(planStack(x, {P}));
   } catch (const std::runtime_error& error) {
@@ -64,16 +64,17 @@ TEST(StackPlan, CovariancesAloneNeedNoX) {
 }
 
 TEST(StackPlan, ShapesThatDoNotFitAreNamed) {
-  EXPECT_EQ(errorOf(Stacked{{100, 7}}, {100, 7, 5}), "P: expected steps × N × N, found 100×7×5");
-  EXPECT_EQ(errorOf(Stacked{{99, 7}}, {100, 7, 7}),
+  EXPECT_EQ(refusalOf(Stacked{{100, 7}}, {100, 7, 5}), "P: expected steps × N × N, found 100×7×5");
+  EXPECT_EQ(refusalOf(Stacked{{99, 7}}, {100, 7, 7}),
             "x: expected 100×7, as P is 100×7×7, found 99×7");
-  EXPECT_EQ(errorOf(Stacked{{100, 9}}, {100, 7, 7}),
+  EXPECT_EQ(refusalOf(Stacked{{100, 9}}, {100, 7, 7}),
             "x: expected 100×7, as P is 100×7×7, found 100×9");
-  EXPECT_EQ(errorOf(Stacked{{700}}, {100, 7, 7}), "x: expected 100×7, as P is 100×7×7, found 700");
-  EXPECT_EQ(errorOf(Stacked{{100, 6}}, {100, 6, 6}),
+  EXPECT_EQ(refusalOf(Stacked{{700}}, {100, 7, 7}),
+            "x: expected 100×7, as P is 100×7×7, found 700");
+  EXPECT_EQ(refusalOf(Stacked{{100, 6}}, {100, 6, 6}),
             "P: expected N × N a step with N = 3 + 2 a feature (x, y, heading, then x, y of each), "
             "found N = 6");
-  EXPECT_EQ(errorOf(std::nullopt, {100, 7}), "P: expected steps × N × N, found 100×7");
+  EXPECT_EQ(refusalOf(std::nullopt, {100, 7}), "P: expected steps × N × N, found 100×7");
 }
 
 }  // namespace

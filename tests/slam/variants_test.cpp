@@ -9,13 +9,13 @@
 namespace slamscope::slam {
 namespace {
 
-struct Outcome {
+struct VariantRun {
   EkfState state;
   Truth truth;
 };
 
-Outcome run(std::unique_ptr<EkfEquations> equations, Sensor sensor, UpdateMode update,
-            const std::shared_ptr<testing::Compass>& compass) {
+VariantRun runVariant(std::unique_ptr<EkfEquations> equations, Sensor sensor, UpdateMode update,
+                      const std::shared_ptr<testing::Compass>& compass) {
   SimulationOptions options;
   options.sensor = sensor;
   options.update = update;
@@ -28,19 +28,19 @@ Outcome run(std::unique_ptr<EkfEquations> equations, Sensor sensor, UpdateMode u
   return {simulation.filter().state(), simulation.truth()};
 }
 
-Outcome run(std::string_view variant, Sensor sensor, UpdateMode update) {
+VariantRun runVariant(std::string_view variant, Sensor sensor, UpdateMode update) {
   const auto compass = std::make_shared<testing::Compass>();
-  return run(testing::makeVariant(variant, sensor, compass), sensor, update, compass);
+  return runVariant(testing::makeVariant(variant, sensor, compass), sensor, update, compass);
 }
 
-/// Largest difference of means or standard deviations, m or rad.
-double difference(const EkfState& a, const EkfState& b) {
+/// Largest largestDifference of means or standard deviations, m or rad.
+double largestDifference(const EkfState& a, const EkfState& b) {
   const Eigen::VectorXd sigma = a.P.diagonal().cwiseSqrt() - b.P.diagonal().cwiseSqrt();
   return std::max((a.x - b.x).cwiseAbs().maxCoeff(), sigma.cwiseAbs().maxCoeff());
 }
 
 /// Mean squared error of the features normalised by P, two degrees of freedom each.
-double featureNees(const Outcome& outcome) {
+double featureNees(const VariantRun& outcome) {
   double sum = 0.0;
   const EkfState& state = outcome.state;
   for (std::size_t k = 0; k < state.ids.size(); ++k) {
@@ -56,21 +56,22 @@ double featureNees(const Outcome& outcome) {
 TEST(Variants, OtherFormsOfTheSameUpdateGiveTheSamePosterior) {
   for (const Sensor sensor : {Sensor::range_bearing, Sensor::relative_position}) {
     for (const UpdateMode update : {UpdateMode::batch, UpdateMode::sequential}) {
-      const Outcome plain = run("plain", sensor, update);
+      const VariantRun plain = runVariant("plain", sensor, update);
       for (const char* form : {"joseph", "square-root", "information", "diffuse"}) {
-        EXPECT_LT(difference(run(form, sensor, update).state, plain.state), 1e-6) << form;
+        EXPECT_LT(largestDifference(runVariant(form, sensor, update).state, plain.state), 1e-6)
+            << form;
       }
       // Must-fail twin: not the same update.
-      EXPECT_GT(difference(run("compass", sensor, update).state, plain.state), 1e-4);
+      EXPECT_GT(largestDifference(runVariant("compass", sensor, update).state, plain.state), 1e-4);
     }
   }
 }
 
 TEST(Variants, OtherLinearisationsStayNearAndDiffer) {
-  const Outcome plain = run("plain", Sensor::range_bearing, UpdateMode::sequential);
+  const VariantRun plain = runVariant("plain", Sensor::range_bearing, UpdateMode::sequential);
   for (const char* other : {"unscented", "iterated", "first-estimates", "frozen"}) {
-    const double d =
-        difference(run(other, Sensor::range_bearing, UpdateMode::sequential).state, plain.state);
+    const double d = largestDifference(
+        runVariant(other, Sensor::range_bearing, UpdateMode::sequential).state, plain.state);
     EXPECT_LT(d, 0.03) << other;
     EXPECT_GT(d, 1e-7) << other;
   }
@@ -78,14 +79,15 @@ TEST(Variants, OtherLinearisationsStayNearAndDiffer) {
 
 TEST(Variants, EachOneIsConsistent) {
   for (const testing::Variant& variant : testing::kVariants) {
-    const Outcome outcome = run(variant.name, Sensor::range_bearing, UpdateMode::sequential);
+    const VariantRun outcome =
+        runVariant(variant.name, Sensor::range_bearing, UpdateMode::sequential);
     EXPECT_EQ(outcome.state.featureCount(), 15) << variant.name;
     EXPECT_LT(featureNees(outcome), 5.0) << variant.name;
   }
   // Must-fail twin: a filter with a fault.
   const auto compass = std::make_shared<testing::Compass>();
-  EXPECT_GT(featureNees(run(makeFault("innovation-sign"), Sensor::range_bearing,
-                            UpdateMode::sequential, compass)),
+  EXPECT_GT(featureNees(runVariant(makeFault("innovation-sign"), Sensor::range_bearing,
+                                   UpdateMode::sequential, compass)),
             5.0);
 }
 

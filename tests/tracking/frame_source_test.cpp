@@ -14,11 +14,11 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 /// A directory for one test, gone after it.
-class FrameSources : public testing::Test {
+class FrameSources : public ::testing::Test {
  protected:
   FrameSources() {
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = fs::path(testing::TempDir()) / (std::string("slamscope_frames_") + test->name());
+    const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    directory_ = fs::path(::testing::TempDir()) / (std::string("slamscope_frames_") + test->name());
     fs::remove_all(directory_);
     fs::create_directories(directory_);
   }

@@ -103,8 +103,8 @@ double sideOffset(const Frame& frame, const LabOptions& options, const CameraInf
 }
 
 /// Measures the sides of tags in a frame against the projection of the same tags by `camera`.
-Misplaced measure(const Frame& frame, const LabOptions& options, const CameraInfo& camera,
-                  const std::vector<LabTag>& tags) {
+Misplaced measured(const Frame& frame, const LabOptions& options, const CameraInfo& camera,
+                   const std::vector<LabTag>& tags) {
   Misplaced result;
   for (const LabTag& tag : tags)
     for (int side = 0; side < 4; ++side) {
@@ -128,7 +128,7 @@ TEST(Lab, TagEdgesLieWhereOpenCvProjectsThem) {
   const Frame frame = lab.frame(0);
   std::vector<LabTag> tags = options.tags;
   tags.push_back(robotTag(options));
-  const Misplaced misplaced = measure(frame, options, options.camera, tags);
+  const Misplaced misplaced = measured(frame, options, options.camera, tags);
   EXPECT_LT(misplaced.rms_px, 0.006);
   EXPECT_LT(misplaced.worst_side_px, 0.015);
 
@@ -136,11 +136,11 @@ TEST(Lab, TagEdgesLieWhereOpenCvProjectsThem) {
   CameraInfo shifted = options.camera;
   shifted.K(0, 2) += 0.5;
   shifted.K(1, 2) += 0.5;
-  EXPECT_GT(measure(frame, options, shifted, tags).rms_px, 0.3);
+  EXPECT_GT(measured(frame, options, shifted, tags).rms_px, 0.3);
   // Must fail: a hundredth less of lens distortion.
   CameraInfo weak = options.camera;
   weak.D[0] += 0.001;
-  EXPECT_GT(measure(frame, options, weak, options.tags).rms_px, 0.02);
+  EXPECT_GT(measured(frame, options, weak, options.tags).rms_px, 0.02);
 }
 
 TEST(Lab, TagEdgesAlongPixelRowsAreNoWorse) {
@@ -158,7 +158,7 @@ TEST(Lab, TagEdgesAlongPixelRowsAreNoWorse) {
                             .T_world_tag = Eigen::Isometry3d(Eigen::Translation3d(
                                 -2.0003 + 0.5011 * i, 0.4307 - 0.3017 * i, 0))});
   const Lab lab(options);
-  const Misplaced misplaced = measure(lab.frame(0), options, options.camera, options.tags);
+  const Misplaced misplaced = measured(lab.frame(0), options, options.camera, options.tags);
   EXPECT_LT(misplaced.worst_side_px, 0.012);
 }
 
@@ -168,13 +168,14 @@ TEST(Lab, EdgesAreTrueWithOtherLenses) {
   options.camera.model = DistortionModel::rational_polynomial;
   options.camera.D = {0.35, -0.05, 0.0004, 0.0003, 0.01, 0.55, -0.02, 0.012};
   const Lab rational(options);
-  EXPECT_LT(measure(rational.frame(0), options, options.camera, options.tags).worst_side_px, 0.015);
+  EXPECT_LT(measured(rational.frame(0), options, options.camera, options.tags).worst_side_px,
+            0.015);
 
   options.camera.model = DistortionModel::equidistant;
   options.camera.D = {-0.03, 0.004, -0.001, 0.0002};
   options.tags = {options.tags[1], options.tags[7]};
   const Lab fisheye(options);
-  EXPECT_LT(measure(fisheye.frame(0), options, options.camera, options.tags).worst_side_px, 0.015);
+  EXPECT_LT(measured(fisheye.frame(0), options, options.camera, options.tags).worst_side_px, 0.015);
 }
 
 /// Grey-weighted middle of the dark disc at a post's foot.

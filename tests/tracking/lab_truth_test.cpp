@@ -18,7 +18,7 @@ Eigen::Isometry3d pose(const Json& rows) {
   return T;
 }
 
-class LabTruth : public testing::Test {
+class LabTruth : public ::testing::Test {
  protected:
   LabTruth() {
     options_.posts = {{3, {1.0, 0.5}}, {9, {-0.25, 0.75}}};
@@ -31,7 +31,7 @@ class LabTruth : public testing::Test {
 
   LabOptions options_ = defaultLab();
   std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) / "slamscope_lab_truth.json";
+      std::filesystem::path(::testing::TempDir()) / "slamscope_lab_truth.json";
   Json truth_;
 };
 

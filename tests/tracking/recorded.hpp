@@ -18,7 +18,7 @@
 // Recorded pictures, where they are at hand: see the data's own README for sources.
 namespace slamscope::tracking::testing {
 
-using Corners = std::array<Eigen::Vector2d, 4>;
+using GivenCorners = std::array<Eigen::Vector2d, 4>;
 namespace fs = std::filesystem;
 
 inline std::optional<fs::path> recorded(const std::string& folder) {
@@ -51,7 +51,7 @@ inline Eigen::Isometry3d poseOf(const nlohmann::json& rows) {
 
 /// What ViSP found in the sequence, and the board by it: mean pose of each tag over all frames.
 struct Sequence {
-  std::vector<std::map<int, Corners>> corners;
+  std::vector<std::map<int, GivenCorners>> corners;
   std::vector<Eigen::Isometry3d> T_camera_board;
   TagLayout board;
   CameraModel camera;

@@ -22,12 +22,12 @@ namespace slamscope::tracking {
 namespace {
 
 using Eigen::Isometry3d, Eigen::Vector2d;
-using testing::Corners, testing::detect, testing::recorded, testing::Sequence;
+using testing::GivenCorners, testing::detect, testing::recorded, testing::Sequence;
 
 /// Root mean square per axis, over the tags that both know, after `offset` was added to the given
 /// ones.
-double rmsDifference(const std::vector<TagDetection>& found, const std::map<int, Corners>& given,
-                     const Vector2d& offset) {
+double rmsDifference(const std::vector<TagDetection>& found,
+                     const std::map<int, GivenCorners>& given, const Vector2d& offset) {
   double sum = 0;
   int count = 0;
   for (const TagDetection& tag : found) {
@@ -42,7 +42,7 @@ double rmsDifference(const std::vector<TagDetection>& found, const std::map<int,
 
 TEST(RecordedTags, RenderedPictureGivesTheCornersThatCameWithIt) {
   SLAMSCOPE_NEED(folder, "visp_rendered_640x480");
-  std::map<int, Corners> given;
+  std::map<int, GivenCorners> given;
   std::ifstream text(*folder / "corners_tag36_11.txt");
   for (int id = 0; text >> id;) {
     for (Vector2d& corner : given[id]) text >> corner.x() >> corner.y();
@@ -111,7 +111,7 @@ TEST(RecordedTags, PhotographsGiveTheTagsThatCameWithThem) {
           line.begin(), line.end(), [](char c) { return c == ',' || c == '(' || c == ')'; }, ' ');
       std::istringstream numbers(line);
       int id = 0;
-      Corners corners;
+      GivenCorners corners;
       numbers >> id;
       for (Vector2d& corner : corners) numbers >> corner.x() >> corner.y();
       if (!numbers) continue;

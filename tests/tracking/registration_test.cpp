@@ -88,7 +88,7 @@ TEST(Registration, PlaneAndAveragingBringTheSpecifiedPrecision) {
 }
 
 /// Mean NEES of (x, y, yaw) over runs; the noise is `factor` times what is stated.
-double meanNees(double factor, int runs) {
+double registrationNees(double factor, int runs) {
   Room room;
   room.sigma_px = 0.1 * factor;
   double sum = 0;
@@ -117,9 +117,10 @@ double meanNees(double factor, int runs) {
 TEST(Registration, PlanarCovarianceIsHonest) {
   constexpr int kRuns = 1000;
   const testing::Band band = testing::neesBand(3, kRuns);
-  const double nees = meanNees(1, kRuns);
+  const double nees = registrationNees(1, kRuns);
   EXPECT_TRUE(band.holds(nees)) << nees;
-  EXPECT_FALSE(band.holds(meanNees(1.15, kRuns))) << "noise 15 % larger than stated must show";
+  EXPECT_FALSE(band.holds(registrationNees(1.15, kRuns)))
+      << "noise 15 % larger than stated must show";
 }
 
 /// Mean over runs of (pixel error)ᵀ Σ_uv⁻¹ (pixel error) at one floor point, camera by floor tags.

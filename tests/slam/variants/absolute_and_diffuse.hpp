@@ -5,15 +5,11 @@
 
 #include "slam/angle.hpp"
 #include "tests/slam/variants/joseph.hpp"
+#include "tests/slam/variants/variants.hpp"
 
 namespace slamscope::slam::testing {
 
 /// What an absolute sensor reads, set by whoever drives the run.
-struct Compass {
-  double heading = 0.0;  ///< rad, with its noise
-  double sigma = 0.02;   ///< rad
-};
-
 /// Every update also takes in the heading that a compass reads.
 class CompassAidedFilter final : public EkfEquations {
  public:

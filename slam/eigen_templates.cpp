@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include "slam/eigen_templates.hpp"
+
+SLAMSCOPE_EIGEN_TEMPLATES();
