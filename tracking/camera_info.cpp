@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "tracking/yaml_fields.hpp"
+#include "tracking/camera_info_yaml.hpp"
 
 namespace slamscope::tracking {
 namespace {
@@ -72,37 +72,52 @@ std::string size(int width, int height) {
 
 }  // namespace
 
-CameraInfo readCameraInfo(const std::filesystem::path& file) {
-  const YamlField root = YamlField::open(file);
+CameraInfo cameraInfoOf(const YamlField& field) {
   CameraInfo info;
-  info.width = readSize(root.at("image_width"));
-  info.height = readSize(root.at("image_height"));
-  if (const auto field = root.find("camera_name")) info.name = field->text();
-  info.K = readMatrix(root.at("camera_matrix"));
-  if (const auto field = root.find("distortion_model")) info.model = readModel(*field);
-  if (const auto field = root.find("distortion_coefficients")) {
-    info.D = readCoefficients(*field, info.model);
+  info.width = readSize(field.at("image_width"));
+  info.height = readSize(field.at("image_height"));
+  if (const auto name = field.find("camera_name")) info.name = name->text();
+  info.K = readMatrix(field.at("camera_matrix"));
+  if (const auto model = field.find("distortion_model")) info.model = readModel(*model);
+  if (const auto coefficients = field.find("distortion_coefficients")) {
+    info.D = readCoefficients(*coefficients, info.model);
   }
   return info;
 }
 
-void writeCameraInfo(const CameraInfo& info, const std::filesystem::path& file) {
+CameraInfo readCameraInfo(const std::filesystem::path& file) {
+  return cameraInfoOf(YamlField::open(file));
+}
+
+std::string cameraInfoText(const CameraInfo& info, const std::string& indent) {
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> K = info.K;
   const int n = static_cast<int>(info.D.size());
   Eigen::Matrix<double, 3, 4, Eigen::RowMajor> P;
   P << info.K, Eigen::Vector3d::Zero();
   const Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   std::string text;
-  text += "image_width: " + std::to_string(info.width) + "\n";
-  text += "image_height: " + std::to_string(info.height) + "\n";
-  text += "camera_name: " + YAML::Dump(YAML::Node(info.name)) + "\n";
-  text += "camera_matrix:\n  rows: 3\n  cols: 3\n  data: " + yamlNumbers(K.data(), 9) + "\n";
-  text += std::string("distortion_model: ") + name(info.model) + "\n";
-  text += "distortion_coefficients:\n  rows: 1\n  cols: " + std::to_string(n) +
-          "\n  data: " + yamlNumbers(info.D.data(), n) + "\n";
-  text += "rectification_matrix:\n  rows: 3\n  cols: 3\n  data: " + yamlNumbers(R.data(), 9) + "\n";
-  text += "projection_matrix:\n  rows: 3\n  cols: 4\n  data: " + yamlNumbers(P.data(), 12) + "\n";
-  writeText(file, text);
+  const auto line = [&](const std::string& key, const std::string& value) {
+    text += indent + key + ": " + value + "\n";
+  };
+  const auto matrix = [&](const std::string& key, int rows, int cols, const double* values) {
+    text += indent + key + ":\n";
+    text += indent + "  rows: " + std::to_string(rows) + "\n";
+    text += indent + "  cols: " + std::to_string(cols) + "\n";
+    text += indent + "  data: " + yamlNumbers(values, rows * cols) + "\n";
+  };
+  line("image_width", std::to_string(info.width));
+  line("image_height", std::to_string(info.height));
+  line("camera_name", YAML::Dump(YAML::Node(info.name)));
+  matrix("camera_matrix", 3, 3, K.data());
+  line("distortion_model", name(info.model));
+  matrix("distortion_coefficients", 1, n, info.D.data());
+  matrix("rectification_matrix", 3, 3, R.data());
+  matrix("projection_matrix", 3, 4, P.data());
+  return text;
+}
+
+void writeCameraInfo(const CameraInfo& info, const std::filesystem::path& file) {
+  writeText(file, cameraInfoText(info));
 }
 
 void requireSize(const CameraInfo& info, int frame_width, int frame_height) {

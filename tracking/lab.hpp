@@ -38,6 +38,8 @@ struct LabOptions {
   std::vector<LabPost> posts;
   double post_radius = 0.02, post_height = 0.18;  ///< m
 
+  /// Half width (x) and depth (y) of the room, m: walls and a ceiling 2.7 m up. 0: walls far away.
+  Eigen::Vector2d walls = Eigen::Vector2d::Zero();
   bool furniture = true;  ///< a few things by the walls, over 2.8 m left and right of the middle
 
   int robot_tag_id = 0;

@@ -8,7 +8,7 @@ namespace slamscope::tracking::lab {
 namespace {
 
 // Numbers of parts: every kind has a range of its own.
-constexpr int kFloor = 0, kTape = 1, kTags = 100, kPosts = 10000, kThings = 1000000;
+constexpr int kWalls = 10, kFloor = 0, kTape = 1, kTags = 100, kPosts = 10000, kThings = 1000000;
 constexpr double kFootHeight = 0.005;  // m
 
 std::vector<Blocker> blockers(const LabOptions& options) {
@@ -35,6 +35,7 @@ Eigen::Array3f albedo(TagFace::Ink ink) {
 
 Room::Room(const LabOptions& options)
     : floor_(options.seed),
+      walls_(options.walls),
       things_(options.furniture ? furniture() : std::vector<Thing>{}),
       light_(makeLight(options)) {
   if (!(options.post_radius > 0 && options.post_height > kFootHeight))
@@ -109,6 +110,7 @@ Sample Room::trace(const Ray& ray_world, const Candidates& candidates) const {
   Sample nearest;
   nearest.colour = Eigen::Array3f(178, 176, 172);  // the walls, far away
   traceFloor(ray_world, nearest);
+  if (walls_.x() > 0 && walls_.y() > 0) traceWalls(ray_world, nearest);
   traceTags(ray_world, candidates.tags, nearest);
   tracePosts(ray_world, candidates.posts, nearest);
   traceThings(ray_world, candidates.things, nearest);
@@ -136,6 +138,26 @@ void Room::traceFloor(const Ray& ray, Sample& nearest) const {
   const Floor::Sample floor = floor_.at(p);
   nearest = {
       .colour = floor.albedo * tint(light_.at(p)), .part = floor.tape ? kTape : kFloor, .t = t};
+}
+
+/// Seen from inside: the first wall or the ceiling on the ray's way out.
+void Room::traceWalls(const Ray& ray, Sample& nearest) const {
+  constexpr double kCeiling = 2.7, kSkirting = 0.08;  // m
+  const Eigen::Vector3d upper(walls_.x(), walls_.y(), kCeiling);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double slope = ray.direction[axis];
+    if (slope == 0 || (axis == 2 && slope < 0)) continue;
+    const double side = slope > 0 ? 1 : -1;
+    const double t = (side * upper[axis] - ray.origin[axis]) / slope;
+    if (!(t > 0 && t < nearest.t)) continue;
+    const Eigen::Vector3d p = ray.at(t), normal = -side * Eigen::Vector3d::Unit(axis);
+    const bool skirting = axis < 2 && p.z() < kSkirting;
+    const Eigen::Array3f paint =
+        skirting ? Eigen::Array3f(96, 104, 112) : Eigen::Array3f(176, 186, 190);
+    nearest = {.colour = paint * tint(openLight(p, normal)),
+               .part = kWalls + 4 * axis + (side > 0 ? 2 : 0) + (skirting ? 1 : 0),
+               .t = t};
+  }
 }
 
 void Room::traceTags(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const {

@@ -59,11 +59,13 @@ class Room {
   [[nodiscard]] static LightMap makeLight(const LabOptions& options);
 
   void traceFloor(const Ray& ray, Sample& nearest) const;
+  void traceWalls(const Ray& ray, Sample& nearest) const;
   void traceTags(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
   void tracePosts(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
   void traceThings(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
 
   Floor floor_;
+  Eigen::Vector2d walls_;
   std::vector<Tag> tags_;
   std::vector<Post> posts_;
   std::vector<Thing> things_;

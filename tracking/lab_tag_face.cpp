@@ -1,34 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "tracking/lab_tag_face.hpp"
 
-#include <apriltag/apriltag.h>
-#include <apriltag/tag36h11.h>
-
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 #include <stdexcept>
+
+#include "tracking/tag_cells.hpp"
 
 namespace slamscope::tracking::lab {
 
 TagFace::TagFace(int id, double size) : cell_(size / 8), half_paper_(0.65 * size) {
   if (!(size > 0)) throw std::invalid_argument("tag size " + std::to_string(size) + " m");
-  const std::unique_ptr<apriltag_family_t, decltype(&tag36h11_destroy)> family(tag36h11_create(),
-                                                                               tag36h11_destroy);
-  if (id < 0 || id >= static_cast<int>(family->ncodes))
-    throw std::invalid_argument("tag36h11 has no id " + std::to_string(id));
-  const std::unique_ptr<image_u8_t, void (*)(image_u8_t*)> image(
-      apriltag_to_image(family.get(), id), [](image_u8_t* picture) {
-        // Debian's library keeps image_u8_destroy to itself; this is what it does.
-        std::free(picture->buf);
-        std::free(picture);
-      });
-  if (image->width != kCells || image->height != kCells)
-    throw std::logic_error("tag36h11 is not ten cells wide");
+  const TagCells print = tagCells("36h11", id);
+  if (print.size != kCells) throw std::logic_error("tag36h11 is not ten cells wide");
   for (int row = 0; row < kCells; ++row)
     for (int column = 0; column < kCells; ++column)
-      cells_[row * kCells + column] =
-          image->buf[row * image->stride + column] > 127 ? Ink::white : Ink::black;
+      cells_[row * kCells + column] = print.black(column, row) ? Ink::black : Ink::white;
 }
 
 TagFace::TagHit TagFace::intersect(const Ray& ray_tag) const {

@@ -8,7 +8,7 @@
 namespace slamscope::tracking {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kPerDegree = std::numbers::pi / 180;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ CameraPose readCameraPose(const std::filesystem::path& file) {
   if (const auto field = root.find("sigma_position_m"))
     pose.sigma_position_m = field->notNegative();
   if (const auto field = root.find("sigma_rotation_deg")) {
-    pose.sigma_rotation_rad = field->notNegative() * kDegree;
+    pose.sigma_rotation_rad = field->notNegative() * kPerDegree;
   }
   return pose;
 }
@@ -53,7 +53,7 @@ CameraPose readCameraPose(const std::filesystem::path& file) {
 void writeCameraPose(const CameraPose& pose, const std::filesystem::path& file) {
   writeText(file, "T_world_camera: " + yamlPose(pose.T_camera_world.inverse()) +
                       "\nsigma_position_m: " + yamlNumber(pose.sigma_position_m) +
-                      "\nsigma_rotation_deg: " + yamlNumber(pose.sigma_rotation_rad / kDegree) +
+                      "\nsigma_rotation_deg: " + yamlNumber(pose.sigma_rotation_rad / kPerDegree) +
                       "\n");
 }
 

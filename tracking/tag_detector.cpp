@@ -47,6 +47,33 @@ double unrefinedSigma(double side_px, double decimate) {
   return (side_px < 40 ? 0.10 : 0.07) * std::max(1.0, 2.5 * (decimate - 1));
 }
 
+/// Cut to the picture; those that overlap joined to their common rectangle. Ones too small to hold
+/// a tag are left out.
+std::vector<PixelRegion> apart(std::span<const PixelRegion> regions, int width, int height) {
+  constexpr int kLeast_px = 16;
+  std::vector<PixelRegion> result;
+  for (PixelRegion next : regions) {
+    next = {std::max(0, next.left), std::max(0, next.top), std::min(width, next.right),
+            std::min(height, next.bottom)};
+    if (next.right - next.left < kLeast_px || next.bottom - next.top < kLeast_px) continue;
+    for (std::size_t i = 0; i < result.size();) {
+      const PixelRegion& other = result[i];
+      const bool overlap = next.left < other.right && other.left < next.right &&
+                           next.top < other.bottom && other.top < next.bottom;
+      if (!overlap) {
+        ++i;
+        continue;
+      }
+      next = {std::min(next.left, other.left), std::min(next.top, other.top),
+              std::max(next.right, other.right), std::max(next.bottom, other.bottom)};
+      result.erase(result.begin() + static_cast<std::ptrdiff_t>(i));
+      i = 0;  // it has grown: what was apart from it may not be any more
+    }
+    result.push_back(next);
+  }
+  return result;
+}
+
 double shortestSide(const std::array<Eigen::Vector2d, 4>& corners) {
   double side = 1e9;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -80,7 +107,10 @@ struct TagDetector::Impl {
   Impl& operator=(const Impl&) = delete;
 
   ImageView toGrey(const ImageView& image);
-  TagDetection convert(const apriltag_detection_t& found, const ImageView& grey) const;
+  /// Tags of one part of the picture (grey), in the whole picture's pixels.
+  void search(const ImageView& grey, const PixelRegion& region, std::vector<TagDetection>& tags);
+  TagDetection convert(const apriltag_detection_t& found, const ImageView& grey,
+                       const Eigen::Vector2d& offset) const;
 
   TagDetectorOptions options;
   const TagFamily& kind;
@@ -106,14 +136,14 @@ ImageView TagDetector::Impl::toGrey(const ImageView& image) {
   return grey;
 }
 
-TagDetection TagDetector::Impl::convert(const apriltag_detection_t& found,
-                                        const ImageView& grey) const {
+TagDetection TagDetector::Impl::convert(const apriltag_detection_t& found, const ImageView& grey,
+                                        const Eigen::Vector2d& offset) const {
   TagDetection tag;
   tag.id = found.id;
   tag.margin = found.decision_margin;
   tag.hamming = found.hamming;
   for (std::size_t i = 0; i < 4; ++i) {
-    tag.corners_px[i] = Eigen::Vector2d(found.p[i][0], found.p[i][1]).array() - kHalfPixel;
+    tag.corners_px[i] = offset.array() + Eigen::Array2d(found.p[i][0], found.p[i][1]) - kHalfPixel;
   }
   tag.sigma_px.fill(unrefinedSigma(shortestSide(tag.corners_px), detector->quad_decimate));
   if (!options.refine) return tag;
@@ -134,22 +164,38 @@ TagDetector::~TagDetector() = default;
 TagDetector::TagDetector(TagDetector&&) noexcept = default;
 TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 
+void TagDetector::Impl::search(const ImageView& grey, const PixelRegion& region,
+                               std::vector<TagDetection>& tags) {
+  const std::size_t first =
+      static_cast<std::size_t>(region.top) * grey.row_bytes + static_cast<std::size_t>(region.left);
+  image_u8_t input{region.right - region.left, region.bottom - region.top,
+                   static_cast<int>(grey.row_bytes),
+                   const_cast<std::uint8_t*>(grey.pixels) + first};
+  zarray_t* found = apriltag_detector_detect(detector, &input);
+  for (int i = 0; i < zarray_size(found); ++i) {
+    apriltag_detection_t* one = nullptr;
+    zarray_get(found, i, &one);
+    if (one->decision_margin < options.min_margin) continue;
+    tags.push_back(convert(*one, grey, {region.left, region.top}));
+  }
+  apriltag_detections_destroy(found);
+}
+
 std::vector<TagDetection> TagDetector::detect(const ImageView& image) {
+  const PixelRegion whole{0, 0, image.width, image.height};
+  return detect(image, std::span(&whole, 1));
+}
+
+std::vector<TagDetection> TagDetector::detect(const ImageView& image,
+                                              std::span<const PixelRegion> regions) {
   const ImageView grey = impl_->toGrey(image);
   const double automatic = image.width >= 1280 ? 2 : 1;
   impl_->detector->quad_decimate =
       static_cast<float>(impl_->options.quad_decimate.value_or(automatic));
-  image_u8_t input{image.width, image.height, static_cast<int>(grey.row_bytes),
-                   const_cast<std::uint8_t*>(grey.pixels)};
-  zarray_t* found = apriltag_detector_detect(impl_->detector, &input);
   std::vector<TagDetection> tags;
-  for (int i = 0; i < zarray_size(found); ++i) {
-    apriltag_detection_t* one = nullptr;
-    zarray_get(found, i, &one);
-    if (one->decision_margin < impl_->options.min_margin) continue;
-    tags.push_back(impl_->convert(*one, grey));
+  for (const PixelRegion& region : apart(regions, image.width, image.height)) {
+    impl_->search(grey, region, tags);
   }
-  apriltag_detections_destroy(found);
   std::stable_sort(tags.begin(), tags.end(),
                    [](const TagDetection& a, const TagDetection& b) { return a.id < b.id; });
   return tags;

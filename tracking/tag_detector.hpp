@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,11 @@ struct TagDetectorOptions {
   std::optional<CameraModel> camera = std::nullopt;
 };
 
+/// Part of a picture, px; right and bottom are outside.
+struct PixelRegion {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
 /// Finds tags. One detector for one thread at a time.
 class TagDetector {
  public:
@@ -64,6 +70,10 @@ class TagDetector {
   /// Tags in the picture, ids ascending. The same id may occur twice where two such tags are in
   /// view. Throws std::invalid_argument where the picture is empty or has 2 channels.
   [[nodiscard]] std::vector<TagDetection> detect(const ImageView& image);
+  /// Only tags that lie within one of these regions (cut to the picture; those that overlap are
+  /// searched as one). Corners are those of the whole picture.
+  [[nodiscard]] std::vector<TagDetection> detect(const ImageView& image,
+                                                 std::span<const PixelRegion> regions);
 
  private:
   struct Impl;

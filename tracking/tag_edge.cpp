@@ -17,7 +17,7 @@ using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
 constexpr double kLeastContrast = 12;  // grey levels
 constexpr double kLeastBlur = 0.15;  // px; sharper, and an edge between two pixels can't be placed
-constexpr int kIterations = 12;
+constexpr int kEdgeIterations = 12;
 // What differs by more than noise and by more than this part of the step belongs to something else;
 // not so in the first iterations, when it may be the edge itself.
 constexpr double kForeign = 0.1;
@@ -128,14 +128,14 @@ double medianOf(std::vector<double> values) {
 }
 
 /// One Gauss–Newton step of the robust fit: J'WJ and J'Wr, and the noise seen (median based).
-struct Linearised {
+struct EdgeEquations {
   Matrix7d H = Matrix7d::Zero();
   Vector7d g = Vector7d::Zero();
   double noise = 0;
 };
 
-Linearised linearise(const std::vector<Sample>& samples, const Vector7d& x, double box,
-                     double foreign) {
+EdgeEquations linearise(const std::vector<Sample>& samples, const Vector7d& x, double box,
+                        double foreign) {
   std::vector<Vector7d> rows(samples.size());
   std::vector<double> residuals(samples.size()), sizes(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -148,7 +148,7 @@ Linearised linearise(const std::vector<Sample>& samples, const Vector7d& x, doub
     residuals[i] = grey - behind - contrast * step.value;
     sizes[i] = std::abs(residuals[i]);
   }
-  Linearised result;
+  EdgeEquations result;
   result.noise = std::max(0.3, 1.4826 * medianOf(std::move(sizes)));
   const double scale = std::max(3 * result.noise, foreign * std::abs(x[4] - x[2]));
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -179,8 +179,8 @@ std::optional<EdgeFit> fitEdge(const ImageView& grey, const Chord& chord, const 
   const double pixel_variance = narrow * narrow / 12;
   const double least_s = std::sqrt(pixel_variance + kLeastBlur * kLeastBlur);
   Vector7d x = guess(*samples, window);
-  Linearised at;
-  for (int i = 0; i < kIterations; ++i) {
+  EdgeEquations at;
+  for (int i = 0; i < kEdgeIterations; ++i) {
     if (std::abs(x[4] - x[2]) < kLeastContrast) return std::nullopt;
     at = linearise(*samples, x, box, i < 4 ? 1.0 : kForeign);
     Matrix7d damped = at.H;

@@ -13,7 +13,7 @@
 namespace slamscope::tracking {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kYamlDegree = std::numbers::pi / 180;
 
 Eigen::Matrix3d fromRollPitchYaw(const Eigen::Vector3d& rpy) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
@@ -154,7 +154,7 @@ Eigen::Isometry3d YamlField::pose() const {
   if (const auto field = find("matrix")) return field->matrix();
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() = at("position_m").vector(3);
-  if (const auto rpy = find("rpy_deg")) T.linear() = fromRollPitchYaw(rpy->vector(3) * kDegree);
+  if (const auto rpy = find("rpy_deg")) T.linear() = fromRollPitchYaw(rpy->vector(3) * kYamlDegree);
   if (const auto rpy = find("rpy_rad")) T.linear() = fromRollPitchYaw(rpy->vector(3));
   if (const auto field = find("quaternion_xyzw")) {
     const Eigen::Quaterniond q(Eigen::Vector4d(field->vector(4)));

@@ -37,6 +37,8 @@ class YamlField {
 
   [[noreturn]] void reject(const std::string& expected) const;
   [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] bool isText() const { return node_.IsScalar(); }  ///< rather than a map or list
 
  private:
   YamlField(std::filesystem::path file, std::string name, YAML::Node node);

@@ -78,6 +78,7 @@ int run(int argc, char** argv) {
   addInfo(program);
   addConvert(program);
 #ifdef SLAMSCOPE_VIEW
+  addCalibrate(program);
   addDevices(program);
 #endif
   try {

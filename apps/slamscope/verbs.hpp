@@ -14,6 +14,7 @@ void addInfo(CLI::App& program);
 void addConvert(CLI::App& program);
 void addMonitor(CLI::App& program);
 void addDemo(CLI::App& program);
+void addCalibrate(CLI::App& program);
 void addDevices(CLI::App& program);
 
 }  // namespace slamscope::apps

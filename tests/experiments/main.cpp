@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// slamscope_experiments: the tables of what the audit finds and of what it wrongly finds.
+// slamscope_experiments: the tables of what the audit finds and of what it wrongly finds, and of
+// how well heads are tracked.
 #include <CLI/CLI.hpp>
 
 #include "tests/experiments/fault_table.hpp"
 #include "tests/experiments/healthy_table.hpp"
+#ifdef SLAMSCOPE_VIEW
+#include "tests/experiments/tracking_table.hpp"
+#endif
 
 int main(int argc, char** argv) {
   namespace experiments = slamscope::slam::experiments;
-  CLI::App app{"Experiments on the audit"};
+  CLI::App app{"Experiments on audit and tracking"};
   app.require_subcommand(1);
   CLI::App* audit = app.add_subcommand("audit", "faults found, false alarms, lawful variants");
   experiments::FaultTableOptions faults;
@@ -25,7 +29,21 @@ int main(int argc, char** argv) {
   audit->add_option("--alpha", healthy.alpha, "family-wise error of the statistical laws")
       ->capture_default_str();
   audit->add_option("--threads", healthy.threads, "0: one per core")->capture_default_str();
+#ifdef SLAMSCOPE_VIEW
+  slamscope::tracking::experiments::TrackingTableOptions tracking;
+  CLI::App* track =
+      app.add_subcommand("tracking", "how well heads are tracked: the table T3 to T14");
+  track->add_option("--frames", tracking.frames, "of each walk through the lab")
+      ->capture_default_str();
+  track->add_option("--trials", tracking.trials, "of what needs no pictures")
+      ->capture_default_str();
+  track->add_flag("--pictures,!--no-pictures", tracking.pictures,
+                  "the walks through the lab at all");
+#endif
   CLI11_PARSE(app, argc, argv);
+#ifdef SLAMSCOPE_VIEW
+  if (*track) return slamscope::tracking::experiments::printTrackingTable(tracking) == 0 ? 0 : 1;
+#endif
   faults.alpha = variants.alpha = healthy.alpha;
   faults.threads = variants.threads = healthy.threads;
   int wrong_verdicts = 0;

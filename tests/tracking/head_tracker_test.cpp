@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/tracking/seen_room.hpp"
+#include "tests/tracking/seen_tags.hpp"
+#include "tracking/head_overlay.hpp"
+
+namespace slamscope::tracking {
+namespace {
+
+using Eigen::Isometry3d, Eigen::Vector2d, Eigen::Vector3d;
+using std::chrono::nanoseconds;
+using testing::atFrame, testing::SeenRoom;
+
+/// Overlay errors (px) of a tracked head over a floor of 2 m × 2 m, both eyes.
+void addOverlayErrors(const SeenRoom& room, const HeadTracker& tracker, nanoseconds time,
+                      std::vector<double>& errors) {
+  for (std::size_t camera = 0; camera < room.rig.cameras.size(); ++camera) {
+    const EyeCamera eye(room.rig, camera);
+    const auto pose = tracker.at(time);
+    ASSERT_TRUE(pose);
+    for (double x = -1; x < 1.01; x += 0.25) {
+      for (double y = -1; y < 1.01; y += 0.25) {
+        const auto drawn = projectRolling(eye, pose->motion, {x, y, 0});
+        const auto truth = room.pixel(camera, time, {x, y, 0});
+        if (drawn && truth) errors.push_back((*drawn - *truth).norm());
+      }
+    }
+  }
+}
+
+double p95(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 1e9 : values[values.size() * 95 / 100];
+}
+
+double walkError(SeenRoom room, int frames) {
+  HeadTracker tracker(room.rig, room.truth);
+  std::vector<double> errors;
+  for (int k = 0; k < frames; ++k) {
+    tracker.add(room.pair(atFrame(k)));
+    if (k >= 5) addOverlayErrors(room, tracker, atFrame(k), errors);
+  }
+  return p95(errors);
+}
+
+TEST(HeadTracker, OverlayFollowsAWalkToATenthOfAPixel) {
+  EXPECT_LT(walkError(SeenRoom{}, 60), 0.15);
+}
+
+TEST(HeadTracker, QuickTurnsUnderRollingShutterStayWithinAPixel) {
+  SeenRoom room;
+  room.head = turningHead({.turn_rate = M_PI / 3, .turn_angle = 0.4});
+  EXPECT_LT(walkError(room, 60), 0.3) << "global shutter";
+  for (RigCamera& camera : room.rig.cameras) camera.readout = std::chrono::milliseconds(20);
+  EXPECT_LT(walkError(room, 60), 1.0) << "rolling";
+}
+
+TEST(HeadTracker, RowTimesAreWhatMakesRollingShutterFit) {
+  SeenRoom room;
+  room.head = turningHead({.turn_rate = M_PI / 3, .turn_angle = 0.4});
+  for (RigCamera& camera : room.rig.cameras) camera.readout = std::chrono::milliseconds(20);
+  Rig untold = room.rig;
+  for (RigCamera& camera : untold.cameras) camera.readout = {};
+  HeadTracker told(room.rig, room.truth), ignorant(untold, room.truth);
+  double residual_told = 0, residual_ignorant = 0;
+  for (int k = 0; k < 20; ++k) {
+    const auto pictures = room.pair(atFrame(k));
+    told.add(pictures);
+    ignorant.add(pictures);
+    residual_told = std::max(residual_told, told.last().residual_px);
+    residual_ignorant = std::max(residual_ignorant, ignorant.last().residual_px);
+  }
+  EXPECT_LT(residual_told, 0.1);
+  EXPECT_GT(residual_ignorant, 0.5) << "the shear must be seen";
+}
+
+/// Figure T8: one filter step from a prior drawn from its covariance, 1000 times.
+TEST(HeadTracker, PoseAndOverlayErrorsAreWhatTheCovarianceSays) {
+  SeenRoom room;
+  room.most_tags = 4;
+  room.head = standingHead({.sway = 0});
+  HeadTrackerOptions options;
+  options.corner_bias_px = 0;
+  const EyeCamera eye(room.rig, 0);
+  const Isometry3d truth = room.head(nanoseconds(0));
+  const Vector3d p(0.3, 0.2, 0);
+  const auto true_px = room.pixel(0, nanoseconds(0), p);
+  double pose_nees = 0, overlay_nees = 0, boastful_nees = 0;
+  constexpr int kRuns = 1000;
+  for (int run = 0; run < kRuns; ++run) {
+    HeadTracker tracker(room.rig, room.truth, options);
+    tracker.add(room.pair(nanoseconds(0)));
+    const auto head = tracker.at(nanoseconds(0));
+    ASSERT_TRUE(head);
+    const auto e = testing::perturbation(head->motion.T_world_head, truth);
+    const Eigen::Matrix<double, 6, 6> S = head->motion.covariance.topLeftCorner<6, 6>();
+    pose_nees += e.dot(S.llt().solve(e)) / kRuns;
+    boastful_nees += e.dot((S / 1.5).llt().solve(e)) / kRuns;
+    const auto drawn = projectRolling(eye, head->motion, p);
+    const auto S_px = overlayCovariance(eye, head->motion, {}, p);
+    ASSERT_TRUE(drawn && S_px && true_px);
+    const Vector2d d = *drawn - *true_px;
+    overlay_nees += d.dot(S_px->llt().solve(d)) / kRuns;
+  }
+  EXPECT_TRUE(testing::neesBand(6, kRuns).holds(pose_nees)) << pose_nees;
+  EXPECT_TRUE(testing::neesBand(2, kRuns).holds(overlay_nees)) << overlay_nees;
+  EXPECT_FALSE(testing::neesBand(6, kRuns).holds(boastful_nees)) << "a third less must be seen";
+}
+
+TEST(HeadTracker, LatePicturesCountAtTheirOwnTime) {
+  SeenRoom room;
+  room.head = turningHead();
+  std::vector<std::vector<HeadPicture>> frames;
+  for (int k = 0; k < 12; ++k) frames.push_back(room.pair(atFrame(k)));
+  HeadTracker in_order(room.rig, room.truth), late(room.rig, room.truth);
+  for (int k = 0; k < 12; ++k) {
+    for (const HeadPicture& picture : frames[k]) in_order.add(picture);
+  }
+  late.add(frames[0]);
+  for (int k = 1; k < 12; k += 2) {  // pairs of frames the wrong way round
+    if (k + 1 < 12) late.add(frames[k + 1]);
+    late.add(frames[k]);
+  }
+  const auto a = in_order.at(atFrame(11)), b = late.at(atFrame(11));
+  ASSERT_TRUE(a && b);
+  EXPECT_LT(difference(a->motion, b->motion).norm(), 1e-6);
+  EXPECT_TRUE(in_order.problems().empty());
+  ASSERT_FALSE(late.problems().empty());
+  EXPECT_NE(late.problems().front().find("out of order"), std::string::npos);
+}
+
+TEST(HeadTracker, DoubledAndOutdatedPicturesAreNamedAndDropped) {
+  SeenRoom room;
+  HeadTracker tracker(room.rig, room.truth);
+  const auto first = room.pair(atFrame(0));
+  tracker.add(first);
+  for (int k = 1; k < 60; ++k) tracker.add(room.pair(atFrame(k)));
+  const auto pictures = room.pair(atFrame(60));
+  tracker.add(pictures);
+  const auto before = tracker.at(atFrame(60));
+  tracker.add(pictures);
+  tracker.add(first);
+  const auto after = tracker.at(atFrame(60));
+  EXPECT_LT(difference(before->motion, after->motion).norm(), 1e-12);
+  const auto problems = tracker.problems();
+  const auto says = [&](const char* what) {
+    return std::any_of(problems.begin(), problems.end(),
+                       [&](const auto& p) { return p.find(what) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("left camera: a frame came twice"));
+  EXPECT_TRUE(says("right camera: a frame came too late to count"));
+}
+
+TEST(HeadTracker, PredictsToAGivenTimeWithoutAClock) {
+  SeenRoom room;
+  HeadTracker tracker(room.rig, room.truth);
+  for (int k = 0; k < 30; ++k) tracker.add(room.pair(atFrame(k)));
+  const nanoseconds last = atFrame(29);
+  double sigma_before = 0;
+  for (const int ms : {0, 10, 20, 40, 80}) {
+    const nanoseconds time = last + std::chrono::milliseconds(ms);
+    const auto pose = tracker.at(time);
+    ASSERT_TRUE(pose) << ms;
+    const auto e = testing::perturbation(pose->motion.T_world_head, room.head(time));
+    const Matrix12d& P = pose->motion.covariance;
+    EXPECT_LT(e.dot((P.topLeftCorner<6, 6>()).llt().solve(e)), 22.5) << ms;  // 99.9 %
+    EXPECT_GT(P(0, 0), sigma_before) << "ever less certain";
+    sigma_before = P(0, 0);
+    EXPECT_LT(e.head<3>().norm(), 0.001 + 0.15 * ms * 1e-3) << ms;
+  }
+  EXPECT_EQ(tracker.state(last + std::chrono::milliseconds(20)), HeadState::tracking);
+  EXPECT_EQ(tracker.state(last + std::chrono::milliseconds(200)), HeadState::coasting);
+  EXPECT_EQ(tracker.state(last + std::chrono::milliseconds(900)), HeadState::searching);
+  EXPECT_FALSE(tracker.at(last + std::chrono::milliseconds(900)));
+}
+
+TEST(HeadTracker, EyesOutOfStepEachCountAtTheirOwnExposure) {
+  SeenRoom room;
+  room.head = turningHead();
+  const nanoseconds late = std::chrono::milliseconds(13);
+  HeadTracker tracker(room.rig, room.truth);
+  std::vector<double> errors;
+  for (int k = 0; k < 40; ++k) {
+    const std::vector<HeadPicture> pair{room.picture(0, atFrame(k)),
+                                        room.picture(1, atFrame(k) + late)};
+    tracker.add(pair);
+    if (k < 5) continue;
+    addOverlayErrors(room, tracker, atFrame(k), errors);
+    addOverlayErrors(room, tracker, atFrame(k) + late, errors);
+  }
+  EXPECT_LT(p95(errors), 0.5);
+  EXPECT_TRUE(tracker.problems().empty());
+}
+
+TEST(HeadTracker, EyesMoreThanHalfAFrameApartAreNamed) {
+  SeenRoom room;
+  HeadTracker tracker(room.rig, room.truth);
+  for (int k = 0; k < 5; ++k) {
+    const std::vector<HeadPicture> pair{
+        room.picture(0, atFrame(k)), room.picture(1, atFrame(k) + std::chrono::milliseconds(21))};
+    tracker.add(pair);
+  }
+  ASSERT_EQ(tracker.problems().size(), 1U);
+  EXPECT_EQ(tracker.problems()[0], "eyes are 21 ms apart, more than half a frame");
+}
+
+/// Figure T12, and the note on re-locking.
+TEST(HeadTracker, FindsItselfInOneFrameAndAfterGapsJumpsWithinItsCovariance) {
+  SeenRoom room;
+  HeadTracker tracker(room.rig, room.truth);
+  tracker.add(room.pair(atFrame(0)));
+  EXPECT_EQ(tracker.state(atFrame(0)), HeadState::tracking) << "from nothing";
+  int frame = 0;
+  for (const int gap : {1, 2, 3, 6, 10}) {
+    for (int k = 0; k < 8; ++k) tracker.add(room.pair(atFrame(++frame)));
+    for (int k = 0; k < gap; ++k) {
+      const std::vector<HeadPicture> nothing{{0, atFrame(++frame), {}}, {1, atFrame(frame), {}}};
+      tracker.add(nothing);
+      EXPECT_EQ(tracker.last().state, HeadState::coasting);
+    }
+    tracker.add(room.pair(atFrame(++frame)));
+    EXPECT_EQ(tracker.last().state, HeadState::tracking) << gap;
+    ASSERT_TRUE(tracker.last().surprise) << gap;
+    EXPECT_LT(*tracker.last().surprise, 22.5) << "χ² of 99.9 %, after a gap of " << gap;
+  }
+  for (int k = 0; k < 20; ++k) {
+    tracker.add(HeadPicture{0, atFrame(++frame), {}});
+  }
+  EXPECT_EQ(tracker.last().state, HeadState::searching) << "nothing for longer than half a second";
+  tracker.add(room.pair(atFrame(++frame)));
+  EXPECT_EQ(tracker.last().state, HeadState::tracking);
+  EXPECT_TRUE(tracker.last().relocked);
+}
+
+TEST(HeadTracker, LoneTagFromAfarIsAmbiguousUntilASecondOneShows) {
+  SeenRoom room;
+  room.rig.cameras.resize(1);
+  room.sigma_px = 0.3;
+  room.most_tags = 1;
+  int ambiguous = 0, wrong = 0, resolved_wrong = 0;
+  for (int run = 0; run < 60; ++run) {
+    room.random.seed(static_cast<unsigned>(run));
+    HeadTracker tracker(room.rig, room.truth, {.most_roll = 0});
+    room.most_tags = 1;
+    tracker.add(room.pair(atFrame(0)));
+    const auto pose = tracker.at(atFrame(0));
+    if (!pose) continue;
+    const auto turn = [&](const HeadPose& head, int k) {
+      return testing::perturbation(head.motion.T_world_head, room.head(atFrame(k)))
+          .tail<3>()
+          .norm();
+    };
+    if (pose->state == HeadState::ambiguous) ++ambiguous;
+    if (pose->state == HeadState::tracking && turn(*pose, 0) > 0.2) ++wrong;
+    room.most_tags = 100;
+    tracker.add(room.pair(atFrame(1)));
+    const auto after = tracker.at(atFrame(1));
+    if (!after || after->state != HeadState::tracking || turn(*after, 1) > 0.02) ++resolved_wrong;
+  }
+  EXPECT_GT(ambiguous, 5);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(resolved_wrong, 0);
+}
+
+/// Figure T10, in short; slamscope_experiments tracking has the ten thousand.
+TEST(HeadTracker, WithAPriorNoLoneTagTurnsTheHeadOver) {
+  SeenRoom room;
+  room.rig.cameras.resize(1);
+  room.sigma_px = 0.2;
+  int wrong = 0, tracked = 0;
+  for (int run = 0; run < 300; ++run) {
+    room.random.seed(static_cast<unsigned>(run));
+    const int frame = 3 * run;
+    HeadTracker tracker(room.rig, room.truth);
+    room.most_tags = 100;
+    for (int k = 0; k < 3; ++k) tracker.add(room.pair(atFrame(frame + k)));
+    room.most_tags = 1;
+    for (int k = 3; k < 6; ++k) tracker.add(room.pair(atFrame(frame + k)));
+    const auto pose = tracker.at(atFrame(frame + 5));
+    if (!pose || pose->state != HeadState::tracking) continue;
+    ++tracked;
+    const auto e = testing::perturbation(pose->motion.T_world_head, room.head(atFrame(frame + 5)));
+    if (e.tail<3>().norm() > 0.1) ++wrong;
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(tracked, 250);
+}
+
+/// What the tracker says of a room in which `spoil` changed the layout, after ten frames.
+struct Told {
+  std::vector<std::string> problems;
+  bool rejected_at_once = false;
+  HeadState state = HeadState::searching;
+
+  [[nodiscard]] bool names(const std::string& what) const {
+    return std::any_of(problems.begin(), problems.end(), [&](const std::string& problem) {
+      return problem.find(what) != std::string::npos;
+    });
+  }
+};
+
+Told tellOf(SeenRoom room, const TagLayout& stated, int rejected_id, int frames = 10) {
+  HeadTracker tracker(room.rig, stated);
+  Told told;
+  for (int k = 0; k < frames; ++k) {
+    tracker.add(room.pair(atFrame(k)));
+    const auto& rejected = tracker.last().rejected_ids;
+    if (k == 0) {
+      told.rejected_at_once =
+          std::find(rejected.begin(), rejected.end(), rejected_id) != rejected.end();
+    }
+  }
+  told.problems = tracker.problems();
+  told.state = tracker.state(atFrame(frames - 1));
+  return told;
+}
+
+MappedTag& tagOf(TagLayout& layout, int id) {
+  return *std::find_if(layout.tags.begin(), layout.tags.end(),
+                       [id](const MappedTag& tag) { return tag.id == id; });
+}
+
+/// The tags that a head sees which stands at the start of its walk.
+std::vector<int> inView(SeenRoom room) {
+  std::vector<int> ids;
+  for (const TagDetection& tag : room.picture(0, atFrame(0)).tags) ids.push_back(tag.id);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// Figure T11.
+TEST(HeadTracker, NamesTagsThatAreNotWhereTheLayoutHasThem) {
+  SeenRoom room;
+  room.head = standingHead();
+  const auto ids = inView(room);
+  ASSERT_GE(ids.size(), 4U);
+  const int a = ids[0], b = ids[1];
+
+  TagLayout moved = room.truth;
+  tagOf(moved, a).T_world_tag.translation().x() += 0.01;
+  const Told of_moved = tellOf(room, moved, a);
+  EXPECT_TRUE(of_moved.rejected_at_once);
+  EXPECT_TRUE(of_moved.names("tag " + std::to_string(a) + " has moved by 0.01"));
+  EXPECT_EQ(of_moved.problems.size(), 1U);
+
+  TagLayout swapped = room.truth;
+  std::swap(tagOf(swapped, a).T_world_tag, tagOf(swapped, b).T_world_tag);
+  const Told of_swapped = tellOf(room, swapped, a);
+  EXPECT_TRUE(of_swapped.rejected_at_once);
+  EXPECT_TRUE(of_swapped.names("tags " + std::to_string(a) + " and " + std::to_string(b) +
+                               " are swapped in the layout"));
+
+  TagLayout small = room.truth;
+  tagOf(small, a).size_m *= 0.8;
+  EXPECT_TRUE(tellOf(room, small, a).names("tag " + std::to_string(a) + " looks"));
+
+  EXPECT_TRUE(tellOf(room, room.truth, a).problems.empty());
+}
+
+TEST(HeadTracker, NamesATagThatIsSeenTwice) {
+  SeenRoom room;
+  room.head = standingHead();
+  const auto ids = inView(room);
+  HeadTracker tracker(room.rig, room.truth);
+  for (int k = 0; k < 5; ++k) {
+    auto pictures = room.pair(atFrame(k));
+    for (HeadPicture& picture : pictures) {
+      TagDetection copy = picture.tags.front();
+      copy.id = ids[0];
+      for (auto& corner : copy.corners_px) corner += Vector2d(-20, 30);
+      picture.tags.push_back(copy);
+    }
+    tracker.add(pictures);
+    const auto e =
+        testing::perturbation(tracker.at(atFrame(k))->motion.T_world_head, room.head(atFrame(k)));
+    EXPECT_LT(e.norm(), 0.005);
+  }
+  ASSERT_EQ(tracker.problems().size(), 1U);
+  EXPECT_EQ(tracker.problems()[0], "tag " + std::to_string(ids[0]) + " is seen twice");
+}
+
+TEST(HeadTracker, NamesWhatWasStatedWrongly) {
+  SeenRoom room;
+  constexpr int kFrames = 240;
+  const auto tell = [&](const Rig& rig, const TagLayout& layout) {
+    SeenRoom seen = room;
+    HeadTracker tracker(rig, layout);
+    for (int k = 0; k < kFrames; k += 6) tracker.add(seen.pair(atFrame(k)));
+    return Told{tracker.problems(), false, tracker.state(atFrame(kFrames - 6))};
+  };
+  EXPECT_TRUE(tell(room.rig, room.truth).problems.empty());
+
+  Rig longer = room.rig;
+  for (RigCamera& camera : longer.cameras) camera.info.K.topLeftCorner<2, 2>() *= 1.03;
+  EXPECT_TRUE(tell(longer, room.truth).names("focal length of the left camera looks"));
+
+  Rig shifted = room.rig;
+  for (RigCamera& camera : shifted.cameras) camera.info.K.topRightCorner<2, 1>().array() += 0.5;
+  EXPECT_TRUE(tell(shifted, room.truth).names("principal point of the left camera looks"));
+
+  TagLayout small = room.truth;
+  for (MappedTag& tag : small.tags) tag.size_m *= 0.9;
+  EXPECT_TRUE(tell(room.rig, small).names("tags look"));
+}
+
+/// Figure T9, in short.
+TEST(HeadTracker, TracksWithMostTagsHidden) {
+  SeenRoom room;
+  room.hidden = 0.6;
+  room.least_tags = 2;
+  HeadTracker tracker(room.rig, room.truth);
+  int tracked = 0;
+  constexpr int kFrames = 400;
+  for (int k = 0; k < kFrames; ++k) {
+    tracker.add(room.pair(atFrame(k)));
+    const auto pose = tracker.at(atFrame(k));
+    if (!pose || pose->state != HeadState::tracking) continue;
+    const auto e = testing::perturbation(pose->motion.T_world_head, room.head(atFrame(k)));
+    if (e.head<3>().norm() < 0.02 && e.tail<3>().norm() < 0.01) ++tracked;
+  }
+  EXPECT_GE(tracked, kFrames * 995 / 1000);
+}
+
+TEST(HeadTracker, CoveredCornersAreLeftOutOneByOne) {
+  SeenRoom room;
+  room.head = standingHead();
+  HeadTracker tracker(room.rig, room.truth);
+  for (int k = 0; k < 10; ++k) {
+    auto pictures = room.pair(atFrame(k));
+    for (HeadPicture& picture : pictures) {
+      for (TagDetection& tag : picture.tags) tag.corners_px[1] += Vector2d(2, -2);
+    }
+    tracker.add(pictures);
+    const auto e =
+        testing::perturbation(tracker.at(atFrame(k))->motion.T_world_head, room.head(atFrame(k)));
+    EXPECT_LT(e.head<3>().norm(), 0.003) << k;
+    EXPECT_EQ(tracker.last().corners_used % 3, 0) << "three of each tag's four";
+  }
+}
+
+TEST(HeadTracker, RefusesWhatCanNotBe) {
+  SeenRoom room;
+  EXPECT_THROW(HeadTracker(Rig{}, room.truth), std::invalid_argument);
+  EXPECT_THROW(HeadTracker(room.rig, TagLayout{}), std::invalid_argument);
+  HeadTracker tracker(room.rig, room.truth);
+  EXPECT_THROW(tracker.add(HeadPicture{2, {}, {}}), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace slamscope::tracking
