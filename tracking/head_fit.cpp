@@ -184,7 +184,8 @@ class HeadSolver {
   [[nodiscard]] double surpriseOf(const Vector12d& off, const Matrix12d& after) const {
     using Matrix6 = Eigen::Matrix<double, 6, 6>;
     const Matrix6 P = problem_.prior.covariance.topLeftCorner<6, 6>();
-    const Matrix6 learnt = P - after.topLeftCorner<6, 6>() + 1e-9 * P;
+    const Matrix6 learnt =
+        P - after.topLeftCorner<6, 6>() + 1e-6 * P;  // differences of what was inverted
     return off.head<6>().dot(learnt.llt().solve(off.head<6>()));
   }
 

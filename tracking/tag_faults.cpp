@@ -156,8 +156,10 @@ std::string TagFaults::text(const Key& key, double amount, const TagLayout& layo
 std::vector<std::string> TagFaults::named() const {
   std::vector<std::string> names;
   for (const auto& [key, votes] : votes_) {
-    const Key swap{Kind::swapped, std::min(key.first, key.second), std::max(key.first, key.second)};
-    const bool said = key.kind == Kind::in_place_of && votes_.contains(swap);
+    const auto swap = votes_.find(
+        {Kind::swapped, std::min(key.first, key.second), std::max(key.first, key.second)});
+    const bool said =
+        key.kind == Kind::in_place_of && swap != votes_.end() && swap->second.size() >= kVotes;
     if (votes.size() < kVotes || said) continue;
     std::vector<double> amounts;
     for (const Vote& one : votes) amounts.push_back(one.amount);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "tests/experiments/progress.hpp"
@@ -13,13 +14,13 @@
 namespace slamscope::tracking::experiments {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Eigen::Isometry3d, Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr int kSettled = 3;  // frames
 
-double since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+/// Milliseconds of the processor, so that others on the machine don't count.
+double since(std::clock_t start) {
+  return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 bool inPicture(const Vector2d& px, const CameraInfo& info) {
@@ -63,10 +64,10 @@ TrackedLab trackLab(const StereoLabOptions& options, int frames) {
   for (int k = 0; k < frames; ++k) {
     const auto frame = static_cast<std::uint64_t>(k);
     const StereoFrame both = lab.pair(frame);
-    const auto start = Clock::now();
+    const auto start = std::clock();
     std::vector<HeadPicture> pictures;
     for (std::size_t eye = 0; eye < rig.cameras.size(); ++eye) {
-      const auto begin = Clock::now();
+      const auto begin = std::clock();
       std::optional<Isometry3d> T_camera_world;
       if (const auto pose = tracker.at(lab.time(eye, frame))) {
         T_camera_world = (pose->motion.T_world_head * rig.T_head_camera(eye)).inverse();
@@ -75,7 +76,7 @@ TrackedLab trackLab(const StereoLabOptions& options, int frames) {
           {eye, both.eyes[eye]->time, searches[eye].find(*both.eyes[eye], T_camera_world)});
       if (k > 0) result.find_ms.push_back(since(begin));
     }
-    const auto begin = Clock::now();
+    const auto begin = std::clock();
     tracker.add(pictures);
     if (k > 0) result.track_ms.push_back(since(begin));
     if (k == 0) result.first_ms = since(start);

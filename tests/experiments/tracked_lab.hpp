@@ -14,8 +14,8 @@ struct TrackedLab {
   std::vector<double>
       disparity_px;  ///< the same points: error of the difference of both eyes' rows
   std::vector<Eigen::Isometry3d> T_world_head;  ///< found, by frame
-  std::vector<double> find_ms, track_ms;        ///< of a frame of one eye; of a pair
-  double first_ms = 0;                          ///< from the first pair of pictures to a pose
+  std::vector<double> find_ms, track_ms;  ///< of a frame of one eye; of a pair; processor's time
+  double first_ms = 0;                    ///< from the first pair of pictures to a pose
   int frames = 0, tracked = 0;
   int least_tags = 1000;
 };

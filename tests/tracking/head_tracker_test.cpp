@@ -32,7 +32,7 @@ void addOverlayErrors(const SeenRoom& room, const HeadTracker& tracker, nanoseco
   }
 }
 
-double p95(std::vector<double> values) {
+double ninetyFifth(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values.empty() ? 1e9 : values[values.size() * 95 / 100];
 }
@@ -44,7 +44,7 @@ double walkError(SeenRoom room, int frames) {
     tracker.add(room.pair(atFrame(k)));
     if (k >= 5) addOverlayErrors(room, tracker, atFrame(k), errors);
   }
-  return p95(errors);
+  return ninetyFifth(errors);
 }
 
 TEST(HeadTracker, OverlayFollowsAWalkToATenthOfAPixel) {
@@ -192,7 +192,7 @@ TEST(HeadTracker, EyesOutOfStepEachCountAtTheirOwnExposure) {
     addOverlayErrors(room, tracker, atFrame(k), errors);
     addOverlayErrors(room, tracker, atFrame(k) + late, errors);
   }
-  EXPECT_LT(p95(errors), 0.5);
+  EXPECT_LT(ninetyFifth(errors), 0.5);
   EXPECT_TRUE(tracker.problems().empty());
 }
 
