@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// slamscope_experiments: the tables of what the audit finds and of what it wrongly finds.
+// slamscope_experiments: the tables of what the audit finds and of what it wrongly finds, and of
+// what association makes of an ambiguous world.
 #include <CLI/CLI.hpp>
 
+#include "tests/experiments/association_table.hpp"
+#include "tests/experiments/consistency_table.hpp"
 #include "tests/experiments/fault_table.hpp"
 #include "tests/experiments/healthy_table.hpp"
 
 int main(int argc, char** argv) {
   namespace experiments = slamscope::slam::experiments;
-  CLI::App app{"Experiments on the audit"};
+  CLI::App app{"Experiments on audit and association"};
   app.require_subcommand(1);
   CLI::App* audit = app.add_subcommand("audit", "faults found, false alarms, lawful variants");
   experiments::FaultTableOptions faults;
@@ -25,7 +28,19 @@ int main(int argc, char** argv) {
   audit->add_option("--alpha", healthy.alpha, "family-wise error of the statistical laws")
       ->capture_default_str();
   audit->add_option("--threads", healthy.threads, "0: one per core")->capture_default_str();
+  CLI::App* association =
+      app.add_subcommand("association", "nearest and joint in an ambiguous world");
+  experiments::AssociationTableOptions ambiguous;
+  association->add_option("--seeds", ambiguous.seeds, "runs of each line")->capture_default_str();
+  association->add_option("--threads", ambiguous.threads, "0: one per core")->capture_default_str();
+  CLI::App* consistency = app.add_subcommand("consistency", "NIS and ANEES over the models");
+  experiments::ConsistencyTableOptions models;
+  consistency->add_option("--runs", models.runs, "of each line")->capture_default_str();
+  consistency->add_option("--loops", models.loops, "driven in each run")->capture_default_str();
+  consistency->add_option("--threads", models.threads, "0: one per core")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  if (*consistency) return experiments::printConsistencyTable(models) == 0 ? 0 : 1;
+  if (*association) return experiments::printAssociationTable(ambiguous) == 0 ? 0 : 1;
   faults.alpha = variants.alpha = healthy.alpha;
   faults.threads = variants.threads = healthy.threads;
   int wrong_verdicts = 0;

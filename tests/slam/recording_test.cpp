@@ -79,8 +79,8 @@ TEST_F(Csv, VelocitiesAndSightingsAreRead) {
   ASSERT_EQ(recording.sightings.size(), 2U);
   ASSERT_EQ(recording.sightings[0].seen.size(), 2U);
   EXPECT_EQ(recording.sightings[0].seen[1].id, 8U);
-  EXPECT_EQ(recording.sightings[0].seen[1].bearing, -0.1);
-  EXPECT_FALSE(recording.sightings[0].seen[1].sigma);
+  EXPECT_EQ(recording.sightings[0].seen[1].z[1], -0.1);
+  EXPECT_FALSE(recording.sightings[0].seen[1].R);
   EXPECT_EQ(recording.equal_stamps, 1U);
   EXPECT_TRUE(recording.warnings.empty()) << "several features at one time are nothing odd";
   EXPECT_FALSE(recording.truth_in_map);
@@ -96,8 +96,8 @@ TEST_F(Csv, IncrementsSigmasAndColumnsInAnyOrderAreRead) {
   const Recording recording = read();
   EXPECT_EQ(recording.odometry_kind, Recording::Odometry::increment);
   EXPECT_EQ(recording.odometry[0].motion, Eigen::Vector3d(0.2, 0.3, 0.1));
-  EXPECT_EQ(recording.sightings[0].seen[0].sigma, Eigen::Vector2d(0.1, 0.02));
-  EXPECT_FALSE(recording.sightings[0].seen[1].sigma);
+  EXPECT_EQ(recording.sightings[0].seen[0].R->diagonal(), Eigen::Vector2d(0.1 * 0.1, 0.02 * 0.02));
+  EXPECT_FALSE(recording.sightings[0].seen[1].R);
 }
 
 TEST_F(Csv, TruthIsMovedIntoTheFrameOfTheMap) {
@@ -148,7 +148,8 @@ TEST_F(Csv, ErrorsNameFileLineAndColumn) {
 TEST_F(Csv, AnUnknownColumnIsAnsweredWithTheNearestKnown) {
   EXPECT_EQ(errorWithOdometry("time_s,foward_mps,turn_radps\n0,0,0\n"),
             "odometry.csv:1: foward_mps: expected a column of "
-            "time_s,forward_mps,turn_radps,dx_m,dy_m,dtheta_rad, found an unknown name (nearest: "
+            "time_s,forward_mps,turn_radps,speed_mps,steering_rad,dx_m,dy_m,dtheta_rad, found an "
+            "unknown name (nearest: "
             "forward_mps)");
   EXPECT_EQ(errorWithOdometry("0,0.5,0\n1,0.5,0\n").substr(0, 18), "odometry.csv:1: 0:")
       << "a file without header";
