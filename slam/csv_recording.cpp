@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "slam/csv_scans.hpp"
 #include "slam/csv_table.hpp"
 
 namespace slamscope::slam {
@@ -99,20 +100,24 @@ class NamedTable {
 
 void readOdometry(const std::string& path, Recording& recording) {
   const Names velocity{"forward_mps", "turn_radps"};
+  const Names car{"speed_mps", "steering_rad"};
   const Names increment{"dx_m", "dy_m", "dtheta_rad"};
-  NamedTable table(path, {"time_s", "forward_mps", "turn_radps", "dx_m", "dy_m", "dtheta_rad"});
-  const bool moved = table.hasAny(increment) && !table.hasAny(velocity);
+  NamedTable table(path, {"time_s", "forward_mps", "turn_radps", "speed_mps", "steering_rad",
+                          "dx_m", "dy_m", "dtheta_rad"});
+  const bool moved = table.hasAny(increment) && !table.hasAny(velocity) && !table.hasAny(car);
+  const bool steered = table.hasAny(car) && !table.hasAny(velocity);
   table.require({"time_s"});
-  table.require(moved ? increment : velocity);
-  recording.odometry_kind = moved ? Recording::Odometry::increment : Recording::Odometry::velocity;
+  const Names& columns = moved ? increment : steered ? car : velocity;
+  table.require(columns);
+  recording.odometry_kind = moved     ? Recording::Odometry::increment
+                            : steered ? Recording::Odometry::ackermann
+                                      : Recording::Odometry::velocity;
   std::uint64_t equal = 0;
   while (table.next()) {
     OdometryEntry entry;
     entry.time = table.time();
-    entry.motion =
-        moved ? Eigen::Vector3d(table.number("dx_m"), table.number("dy_m"),
-                                table.number("dtheta_rad"))
-              : Eigen::Vector3d(table.number("forward_mps"), 0.0, table.number("turn_radps"));
+    entry.motion = {table.number(columns.front()), moved ? table.number("dy_m") : 0.0,
+                    table.number(columns.back())};
     if (!recording.odometry.empty() && recording.odometry.back().time == entry.time) ++equal;
     recording.odometry.push_back(entry);
   }
@@ -125,20 +130,23 @@ void readSightings(const std::string& path, Recording& recording) {
   const Names sigmas{"sigma_range_m", "sigma_bearing_rad"};
   NamedTable table(
       path, {"time_s", "id", "range_m", "bearing_rad", "sigma_range_m", "sigma_bearing_rad"});
-  table.require({"time_s", "id", "range_m", "bearing_rad"});
+  table.require({"time_s", "range_m", "bearing_rad"});
   if (table.hasAny(sigmas)) table.require(sigmas);
+  recording.ids_known = table.has("id");
   std::uint64_t twice = 0;
   while (table.next()) {
-    RangeBearing seen{table.id(), table.positive("range_m"), table.number("bearing_rad"), {}};
+    Sighting seen{recording.ids_known ? table.id() : 0,
+                  {table.positive("range_m"), table.number("bearing_rad")}};
     if (table.given(sigmas[0]) || table.given(sigmas[1])) {
-      seen.sigma = Eigen::Vector2d(table.positive(sigmas[0]), table.positive(sigmas[1]));
+      const Eigen::Vector2d sigma(table.positive(sigmas[0]), table.positive(sigmas[1]));
+      seen.R = Eigen::Matrix2d(sigma.cwiseAbs2().asDiagonal());
     }
     const auto time = table.time();
-    if (!recording.sightings.empty() && recording.sightings.back().time == time) {
+    if (recording.ids_known && !recording.sightings.empty() &&
+        recording.sightings.back().time == time) {
       const auto& group = recording.sightings.back().seen;
-      twice += static_cast<std::uint64_t>(
-          std::count_if(group.begin(), group.end(),
-                        [&](const RangeBearing& other) { return other.id == seen.id; }));
+      twice += static_cast<std::uint64_t>(std::count_if(
+          group.begin(), group.end(), [&](const Sighting& other) { return other.id == seen.id; }));
     }
     addSighting(recording, time, seen);
   }
@@ -183,11 +191,20 @@ Recording readCsv(const std::string& directory) {
   recording.name = std::filesystem::absolute(base).lexically_normal().filename().string();
   if (recording.name.empty()) recording.name = directory;
   readOdometry(base / "odometry.csv", recording);
-  readSightings(base / "range_bearing.csv", recording);
+  const bool scanned = std::filesystem::exists(base / "scans.csv");
+  if (scanned && std::filesystem::exists(base / "range_bearing.csv")) {
+    throw std::runtime_error(directory + ": scans.csv and range_bearing.csv: expected one of them");
+  }
+  if (scanned) {
+    readCsvScans(base / "scans.csv", base / "intensities.csv", recording);
+  } else {
+    readSightings(base / "range_bearing.csv", recording);
+  }
   readTruePath(base / "truth_path.csv", recording);
   readTrueFeatures(base / "truth_features.csv", recording);
   requireInput(recording, directory);
   moveTruthIntoMap(recording);
+  warnOfOddNumbers(recording);
   return recording;
 }
 

@@ -10,9 +10,11 @@ namespace slamscope::slam {
 /// Reads anybody's data from a directory of CSV files, each with its header line:
 ///
 ///   odometry.csv       time_s,forward_mps,turn_radps      velocities, held until the next row
+///                  or  time_s,speed_mps,steering_rad      of a car, likewise; set its `vehicle`
 ///                  or  time_s,dx_m,dy_m,dtheta_rad        moved since the row before, robot's
 ///                  frame
-///   range_bearing.csv  time_s,id,range_m,bearing_rad[,sigma_range_m,sigma_bearing_rad]
+///   range_bearing.csv  time_s,[id,]range_m,bearing_rad[,sigma_range_m,sigma_bearing_rad]
+///               or scans.csv, see csv_scans.hpp
 ///   truth_path.csv     time_s,x_m,y_m,theta_rad           optional
 ///   truth_features.csv id,x_m,y_m                         optional
 ///

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "slam/compressed_text.hpp"
@@ -44,7 +45,7 @@ bool TextTable::next() {
     position_ = stop + 1;
     ++line_;
     const std::string_view words = trimmed(row);
-    if (words.empty() || words.front() == '#') continue;
+    if (words.empty() || words.front() == '#' || words.front() == '%') continue;
     split(row);
     return true;
   }
@@ -79,6 +80,18 @@ double TextTable::number(std::size_t cell, std::string_view column) const {
     fail(column, "a number", text(cell));
   }
   return value;
+}
+
+double TextTable::numberIfAny(std::size_t cell, std::string_view column) const {
+  std::string_view digits = text(cell);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (digits.empty()) return value;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size()) {
+    fail(column, "a number, or nan for none", text(cell));
+  }
+  return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 FeatureId TextTable::id(std::size_t cell, std::string_view column) const {

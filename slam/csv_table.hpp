@@ -13,8 +13,8 @@
 namespace slamscope::slam {
 
 /// Rows of a text file, with cells between commas or blanks; blank lines and lines that begin with
-/// `#` are passed over. Every failure is a std::runtime_error "file:line: column: expected …,
-/// found …".
+/// `#` or `%` are passed over. Every failure is a std::runtime_error "file:line: column: expected
+/// …, found …".
 class TextTable {
  public:
   enum class Separator { comma, blank };
@@ -28,6 +28,8 @@ class TextTable {
   [[nodiscard]] std::size_t cells() const { return cells_.size(); }
   [[nodiscard]] std::string_view text(std::size_t cell) const { return cells_.at(cell); }
   [[nodiscard]] double number(std::size_t cell, std::string_view column) const;  ///< finite
+  /// As `number`; NaN where the cell is empty or says nan or inf.
+  [[nodiscard]] double numberIfAny(std::size_t cell, std::string_view column) const;
   [[nodiscard]] FeatureId id(std::size_t cell, std::string_view column) const;
   /// Seconds, not before the time of the row before.
   [[nodiscard]] std::chrono::nanoseconds time(std::size_t cell, std::string_view column);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "slam/angle.hpp"
-#include "slam/ekf_rank_update.hpp"
+#include "slam/ekf_right_solve.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -13,17 +13,62 @@ Eigen::Matrix3d poseCovariance(const EkfState& state) {
   return state.P.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
 }
 
-/// Columns `column` … `column` + Count − 1 of the symmetric P, read from its lower triangle.
-template <int Count>
-Eigen::Matrix<double, Eigen::Dynamic, Count> columnsOf(const Eigen::MatrixXd& P, int column) {
-  const Eigen::Index below = P.rows() - column;
-  Eigen::Matrix<double, Eigen::Dynamic, Count> columns(P.rows(), Count);
-  columns.topRows(column) = P.block(column, 0, Count, column).transpose();
-  columns.bottomRows(below) = P.block(column, column, below, Count);
-  const Eigen::Matrix<double, Count, Count> corner =
-      P.block<Count, Count>(column, column).template selfadjointView<Eigen::Lower>();
-  columns.template middleRows<Count>(column) = corner;
-  return columns;
+/// P Hᵀ of one observation (N×2), from the lower triangle of P: the columns of the pose and those
+/// of the feature, above the diagonal read as rows.
+void setPHt(const EkfState& state, const ObservationJacobian& H,
+            Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, 2>> PHt) {
+  const Eigen::MatrixXd& P = state.P;
+  const Eigen::Index column = H.column;
+  const Eigen::Index below = P.rows() - column - 2;
+  const Matrix32d H_vt = H.H_v.transpose();
+  const Eigen::Matrix2d H_ft = H.H_f.transpose();
+  const Eigen::Matrix2d P_ff = P.block<2, 2>(column, column).selfadjointView<Eigen::Lower>();
+  PHt.topRows<3>().noalias() = poseCovariance(state) * H_vt;
+  PHt.bottomRows(P.rows() - 3).noalias() = P.bottomLeftCorner(P.rows() - 3, 3).lazyProduct(H_vt);
+  const double* above = &P(column, 0);  // two rows of P, read once
+  double* const first = PHt.col(0).data();
+  double* const second = PHt.col(1).data();
+  for (Eigen::Index k = 0; k < column; ++k, above += P.rows()) {
+    first[k] += above[0] * H_ft(0, 0) + above[1] * H_ft(1, 0);
+    second[k] += above[0] * H_ft(0, 1) + above[1] * H_ft(1, 1);
+  }
+  PHt.middleRows<2>(column) += P_ff * H_ft;
+  PHt.bottomRows(below).noalias() += P.block(column + 2, column, below, 2).lazyProduct(H_ft);
+}
+
+/// S of (8) for all observations, whole and exactly symmetric, from P Hᵀ.
+void setInnovationCovariance(Correction& c) {
+  const auto count = static_cast<Eigen::Index>(c.observations.size());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const LinearisedObservation& o = c.observations[static_cast<std::size_t>(k)];
+    for (Eigen::Index j = 0; j <= k; ++j) {
+      const Eigen::Matrix2d block =
+          o.H.H_v * c.PHt.block<3, 2>(0, 2 * j) + o.H.H_f * c.PHt.block<2, 2>(o.H.column, 2 * j);
+      c.S.block<2, 2>(2 * k, 2 * j) = block;
+      c.S.block<2, 2>(2 * j, 2 * k) = block.transpose();
+    }
+    const Eigen::Matrix2d own = c.S.block<2, 2>(2 * k, 2 * k);
+    c.S.block<2, 2>(2 * k, 2 * k) = 0.5 * (own + own.transpose()) + o.R;
+  }
+}
+
+/// (8) and (11) of `c.observations`.
+void solveCorrection(const EkfState& state, Correction& c) {
+  const auto count = static_cast<Eigen::Index>(c.observations.size());
+  c.innovation.resize(2 * count);
+  c.PHt.resize(state.size(), 2 * count);
+  c.S.resize(2 * count, 2 * count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const LinearisedObservation& o = c.observations[static_cast<std::size_t>(k)];
+    c.innovation.segment<2>(2 * k) = o.innovation;
+    setPHt(state, o.H, c.PHt.middleCols<2>(2 * k));
+  }
+  setInnovationCovariance(c);  // (8)
+  c.S_factor.compute(c.S);
+  c.applied = c.S.allFinite() && c.innovation.allFinite() && c.S_factor.info() == Eigen::Success;
+  if (!c.applied) return;
+  c.Y = c.PHt;  // (11)
+  solveFromTheRight(c.S_factor.matrixLLT(), c.Y);
 }
 
 }  // namespace
@@ -70,12 +115,15 @@ void EkfEquations::predictCovariance(EkfState& state, const Eigen::Matrix3d& F,
   const Eigen::Matrix3d P_vv = F * poseCovariance(state) * F.transpose() + Q;
   state.P.topLeftCorner<3, 3>().triangularView<Eigen::Lower>() = P_vv;
   auto P_mv = state.P.bottomLeftCorner(state.size() - 3, 3);
-  P_mv = (P_mv * F.transpose()).eval();
+  for (Eigen::Index row = 0; row < P_mv.rows(); ++row) {
+    const Eigen::Vector3d P_vi = P_mv.row(row).transpose();
+    P_mv.row(row).noalias() = (F * P_vi).transpose();
+  }
 }
 
-std::vector<Observation> EkfEquations::perceive(const EkfState& /*state*/,
-                                                std::span<const Observation> readings) {
-  return {readings.begin(), readings.end()};
+std::span<const Observation> EkfEquations::perceive(const EkfState& /*state*/,
+                                                    std::span<const Observation> readings) {
+  return readings;
 }
 
 Eigen::Matrix2d EkfEquations::observationNoise(const Eigen::Matrix2d& R) {
@@ -114,40 +162,28 @@ Eigen::Matrix2d EkfEquations::innovationCovariance(const EkfState& state,
 
 Correction EkfEquations::correct(const EkfState& state,
                                  std::vector<LinearisedObservation> observations) const {
-  const auto count = static_cast<Eigen::Index>(observations.size());
-  Correction c;
-  c.observations = std::move(observations);
-  c.innovation.resize(2 * count);
-  c.PHt.resize(state.size(), 2 * count);
-  c.S.resize(2 * count, 2 * count);
-  const Eigen::Matrix<double, Eigen::Dynamic, 3> P_v = columnsOf<3>(state.P, 0);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const LinearisedObservation& o = c.observations[static_cast<std::size_t>(k)];
-    c.innovation.segment<2>(2 * k) = o.innovation;
-    c.PHt.middleCols<2>(2 * k) = P_v.lazyProduct(o.H.H_v.transpose());
-    c.PHt.middleCols<2>(2 * k) +=
-        columnsOf<2>(state.P, o.H.column).lazyProduct(o.H.H_f.transpose());
-  }
-  for (Eigen::Index k = 0; k < count; ++k) {  // (8)
-    const LinearisedObservation& o = c.observations[static_cast<std::size_t>(k)];
-    c.S.middleRows<2>(2 * k) = o.H.H_v.lazyProduct(c.PHt.topRows<3>()) +
-                               o.H.H_f.lazyProduct(c.PHt.middleRows<2>(o.H.column));
-    c.S.block<2, 2>(2 * k, 2 * k) += o.R;
-  }
-  c.S = (0.5 * (c.S + c.S.transpose())).eval();
-  c.S_factor.compute(c.S);
-  c.applied = c.S.allFinite() && c.innovation.allFinite() && c.S_factor.info() == Eigen::Success;
-  if (!c.applied) return c;
-  c.Y = c.PHt;  // (11)
-  c.S_factor.matrixU().solveInPlace<Eigen::OnTheRight>(c.Y);
-  return c;
+  Correction correction;
+  correction.observations = std::move(observations);
+  solveCorrection(state, correction);
+  return correction;
+}
+
+Correction EkfEquations::spare(std::size_t observations) {
+  if (spares_.size() <= observations) spares_.resize(observations + 1);
+  return std::move(spares_[observations]);
+}
+
+void EkfEquations::reuse(Correction&& correction) {
+  const std::size_t observations = correction.observations.size();
+  if (spares_.size() <= observations) spares_.resize(observations + 1);
+  spares_[observations] = std::move(correction);
 }
 
 Correction EkfEquations::update(EkfState& state, std::span<const Observation> observations) {
-  std::vector<LinearisedObservation> linearised;
-  linearised.reserve(observations.size());
-  for (const Observation& o : observations) linearised.push_back(linearise(state, o));
-  Correction correction = correct(state, std::move(linearised));
+  Correction correction = spare(observations.size());
+  correction.observations.clear();
+  for (const Observation& o : observations) correction.observations.push_back(linearise(state, o));
+  solveCorrection(state, correction);
   if (correction.applied) {
     updateMean(state, correction);        // (9)
     updateCovariance(state, correction);  // (10)
@@ -156,12 +192,17 @@ Correction EkfEquations::update(EkfState& state, std::span<const Observation> ob
 }
 
 void EkfEquations::updateMean(EkfState& state, const Correction& correction) {
-  state.x += correction.Y * correction.S_factor.matrixL().solve(correction.innovation);
+  const Eigen::Index rows = correction.innovation.size();
+  if (whitened_.size() < rows) whitened_.resize(rows);
+  auto whitened = whitened_.head(rows);
+  whitened = correction.innovation;
+  correction.S_factor.matrixL().solveInPlace(whitened);
+  state.x.noalias() += correction.Y * whitened;
   state.x[2] = wrapAngle(state.x[2]);
 }
 
 void EkfEquations::updateCovariance(EkfState& state, const Correction& correction) {
-  subtractOuterProduct(state.P, correction.Y);
+  rank_update_.subtract(state.P, correction.Y);
 }
 
 void EkfEquations::initialise(EkfState& state, const Observation& observation) {

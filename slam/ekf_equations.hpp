@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/ekf_rank_update.hpp"
 #include "slam/models.hpp"
 #include "slam/snapshot.hpp"
 
@@ -89,8 +90,9 @@ class EkfEquations {
                                  const Eigen::Matrix3d& Q);
 
   /// What the sensor reports, as the filter takes it in (faults of association live here).
-  [[nodiscard]] virtual std::vector<Observation> perceive(const EkfState& state,
-                                                          std::span<const Observation> readings);
+  /// Valid until the next call, and as long as `readings` are.
+  [[nodiscard]] virtual std::span<const Observation> perceive(
+      const EkfState& state, std::span<const Observation> readings);
   /// R_i of (8), as the filter believes it.
   [[nodiscard]] virtual Eigen::Matrix2d observationNoise(const Eigen::Matrix2d& R);
   /// (6), (7): z_i − h_i(x̂).
@@ -108,6 +110,11 @@ class EkfEquations {
 
   /// (7)–(11) for all the given observations of known features at once.
   virtual Correction update(EkfState& state, std::span<const Observation> observations);
+  /// Takes back the memory of a correction, so that the next one of as many observations needs
+  /// none.
+  void reuse(Correction&& correction);
+  /// Threads that (10) may use, 1 or 2.
+  void setThreads(int threads) { rank_update_.setThreads(threads); }
   /// (9)
   virtual void updateMean(EkfState& state, const Correction& correction);
   /// (10), as a rank update of the lower triangle.
@@ -129,7 +136,12 @@ class EkfEquations {
                                    std::vector<LinearisedObservation> observations) const;
 
  private:
+  [[nodiscard]] Correction spare(std::size_t observations);
+
   Sensor sensor_;
+  RankUpdate rank_update_;
+  Eigen::VectorXd whitened_;        ///< L⁻¹ ν of (9), and memory to spare
+  std::vector<Correction> spares_;  ///< by number of observations
 };
 
 }  // namespace slamscope::slam

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "slam/ekf_slam.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -50,6 +52,7 @@ EkfSlam::EkfSlam(const EkfOptions& options, std::unique_ptr<EkfEquations> equati
   if (!options.initial_pose.allFinite() || !options.initial_covariance.allFinite()) {
     throw std::invalid_argument("EkfSlam: initial pose or covariance is not finite");
   }
+  equations_->setThreads(options.threads);
   state_.x = options.initial_pose;
   state_.P = options.initial_covariance;
 }
@@ -83,44 +86,43 @@ void EkfSlam::predict(std::chrono::nanoseconds time, const Motion& motion) {
   });
 }
 
-std::vector<FeatureId> EkfSlam::update(std::span<const Observation> observations) {
-  if (options_.update == UpdateMode::batch) return updateOnce(observations);
-  std::vector<FeatureId> used;
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    const std::vector<FeatureId> one = updateOnce(observations.subspan(k, 1));
-    used.insert(used.end(), one.begin(), one.end());
+const std::vector<FeatureId>& EkfSlam::update(std::span<const Observation> observations) {
+  used_.clear();
+  const std::size_t at_once = options_.update == UpdateMode::batch ? observations.size() : 1;
+  for (std::size_t k = 0; k < observations.size(); k += at_once) {
+    updateOnce(observations.subspan(k, at_once));
   }
-  return used;
+  return used_;
 }
 
-std::vector<FeatureId> EkfSlam::updateOnce(std::span<const Observation> observations) {
-  std::vector<Observation> accepted;
+/// Appends to `used_`.
+void EkfSlam::updateOnce(std::span<const Observation> observations) {
+  accepted_.clear();
   for (const Observation& o : observations) {
     requireFinite(o);
     if (!knows(o.id)) {
       throw std::invalid_argument("update with feature " + std::to_string(o.id) +
                                   ", which is not in the map");
     }
-    if (passes(o)) accepted.push_back(o);
+    if (passes(o)) accepted_.push_back(o);
   }
-  if (accepted.empty()) return {};
-  Correction correction = equations_->update(state_, accepted);
-  if (!correction.applied && dropUndefined(accepted)) {
-    correction = equations_->update(state_, accepted);
+  if (accepted_.empty()) return;
+  Correction correction = equations_->update(state_, accepted_);
+  if (!correction.applied && dropUndefined(accepted_)) {
+    correction = equations_->update(state_, accepted_);
   }
-  if (!correction.applied) {
-    counters_.degenerate += accepted.size();
-    return {};
+  if (correction.applied) {
+    ++counters_.updates;
+    counters_.observed += accepted_.size();
+    for (const Observation& o : accepted_) used_.push_back(o.id);
+    announce(Event::update, [&](Snapshot& snapshot) {
+      for (const Observation& o : accepted_) snapshot.observed.push_back(o.id);
+      snapshot.observations = recordsOf(correction, state_.size(), options_.record_jacobians);
+    });
+  } else {
+    counters_.degenerate += accepted_.size();
   }
-  ++counters_.updates;
-  counters_.observed += accepted.size();
-  std::vector<FeatureId> used;
-  for (const Observation& o : accepted) used.push_back(o.id);
-  announce(Event::update, [&](Snapshot& snapshot) {
-    snapshot.observed = used;
-    snapshot.observations = recordsOf(correction, state_.size(), options_.record_jacobians);
-  });
-  return used;
+  equations_->reuse(std::move(correction));
 }
 
 bool EkfSlam::passes(const Observation& observation) {
@@ -131,6 +133,7 @@ bool EkfSlam::passes(const Observation& observation) {
   // Written so that what is not a number passes: it is no outlier, the update looks at it.
   if (!(squared_mahalanobis > chiSquare2(*options_.gate_probability))) return true;
   ++counters_.gated_out;
+  rejected_.push_back(observation.id);
   return false;
 }
 
@@ -175,23 +178,24 @@ void EkfSlam::remove(FeatureId id) {
 
 void EkfSlam::observe(std::chrono::nanoseconds time, std::span<const Observation> observations) {
   advance(time);
-  std::vector<Observation> known;
-  std::vector<Observation> fresh;
+  known_.clear();
+  fresh_.clear();
   for (const Observation& o : equations_->perceive(state_, observations)) {
-    (knows(o.id) ? known : fresh).push_back(o);
+    (knows(o.id) ? known_ : fresh_).push_back(o);
   }
-  std::vector<FeatureId> observed = update(known);
-  std::vector<Observation> again;  // second readings of features that are born in this very step
-  for (const Observation& o : fresh) {
+  update(known_);
+  observed_ = used_;
+  known_.clear();  // from here on: second readings of features that are born in this very step
+  for (const Observation& o : fresh_) {
     if (knows(o.id)) {
-      again.push_back(o);
+      known_.push_back(o);
     } else {
       initialise(o);
-      observed.push_back(o.id);
+      observed_.push_back(o.id);
     }
   }
-  update(again);
-  announce(Event::step, [&](Snapshot& snapshot) { snapshot.observed = std::move(observed); });
+  update(known_);
+  announce(Event::step, [&](Snapshot& snapshot) { snapshot.observed = observed_; });
 }
 
 void EkfSlam::step(std::chrono::nanoseconds time, const Motion& motion,
@@ -206,6 +210,7 @@ void EkfSlam::advance(std::chrono::nanoseconds time) {
                                 " ns to " + std::to_string(time.count()) + " ns");
   }
   time_ = time;
+  rejected_.clear();
 }
 
 Snapshot EkfSlam::makeSnapshot(Event event) const {
@@ -221,6 +226,8 @@ Snapshot EkfSlam::makeSnapshot(Event event) const {
   }
   snapshot.covariance = PackedCovariance::fromLower(state_.P);
   snapshot.asymmetry = equations_->asymmetry(state_);
+  std::copy_if(tentative_.begin(), tentative_.end(), std::back_inserter(snapshot.tentative),
+               [this](FeatureId id) { return knows(id); });
   snapshot.observed_given = true;
   snapshot.truth = truth_;
   return snapshot;

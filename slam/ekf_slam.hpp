@@ -26,6 +26,7 @@ struct EkfOptions {
   std::optional<double> gate_probability{};
   Eigen::Vector3d initial_pose = Eigen::Vector3d::Zero();        ///< x, y (m), θ (rad)
   Eigen::Matrix3d initial_covariance = Eigen::Matrix3d::Zero();  ///< zero: exactly known
+  int threads = 2;                ///< at most; the second is used where it pays (n > 150 or so)
   bool record_jacobians = false;  ///< H of each observation in snapshots of updates (2×N each)
 };
 
@@ -65,8 +66,8 @@ class EkfSlam : public Subject {
 
   /// (5)–(11) with observations of features in the map (else std::invalid_argument), at the current
   /// time. Event `update`: one for the batch, or one for each observation when sequential. Returns
-  /// the ids that were used (gate passed).
-  std::vector<FeatureId> update(std::span<const Observation> observations);
+  /// the ids that were used (gate passed), valid until the next call.
+  const std::vector<FeatureId>& update(std::span<const Observation> observations);
 
   /// Appends a feature that is not in the map yet (else std::invalid_argument). Event `initialise`.
   void initialise(const Observation& observation);
@@ -86,9 +87,14 @@ class EkfSlam : public Subject {
   /// The truth put into every snapshot from now on, where known (simulation, motion capture).
   void setTruth(std::optional<Truth> truth) { truth_ = std::move(truth); }
 
+  /// The features that every snapshot from now on calls tentative, where they are in the map.
+  void setTentative(std::vector<FeatureId> ids) { tentative_ = std::move(ids); }
+
   [[nodiscard]] const EkfState& state() const { return state_; }
   [[nodiscard]] const EkfOptions& options() const { return options_; }
   [[nodiscard]] const EkfCounters& counters() const { return counters_; }
+  /// Features whose readings the gate left out since the last prediction or `observe` began.
+  [[nodiscard]] const std::vector<FeatureId>& rejected() const { return rejected_; }
   [[nodiscard]] std::chrono::nanoseconds time() const {
     return time_.value_or(std::chrono::nanoseconds{});
   }
@@ -102,7 +108,7 @@ class EkfSlam : public Subject {
   /// Takes out, and counts, readings that have no Jacobian here; whether some went and some are
   /// left.
   bool dropUndefined(std::vector<Observation>& observations);
-  std::vector<FeatureId> updateOnce(std::span<const Observation> observations);
+  void updateOnce(std::span<const Observation> observations);
   [[nodiscard]] Snapshot makeSnapshot(Event event) const;
   template <typename Fill>
   void announce(Event event, Fill fill);
@@ -112,6 +118,14 @@ class EkfSlam : public Subject {
   EkfState state_;
   EkfCounters counters_;
   std::optional<Truth> truth_;
+  std::vector<FeatureId> tentative_;
+  std::vector<FeatureId> rejected_;
+  // Memory of a step, kept for the next: a steady filter to which nobody listens allocates nothing.
+  std::vector<Observation> known_;
+  std::vector<Observation> fresh_;
+  std::vector<Observation> accepted_;
+  std::vector<FeatureId> used_;
+  std::vector<FeatureId> observed_;
   std::optional<std::chrono::nanoseconds> time_;
   std::uint64_t sequence_ = 0;
 };

@@ -42,9 +42,10 @@ class WrongAssociation final : public EkfEquations {
  public:
   WrongAssociation(Sensor sensor, std::uint64_t seed) : EkfEquations(sensor), random_(seed) {}
 
-  std::vector<Observation> perceive(const EkfState& state,
-                                    std::span<const Observation> readings) override {
-    std::vector<Observation> perceived = EkfEquations::perceive(state, readings);
+  std::span<const Observation> perceive(const EkfState& state,
+                                        std::span<const Observation> readings) override {
+    std::vector<Observation>& perceived = perceived_;
+    perceived.assign(readings.begin(), readings.end());
     for (Observation& reading : perceived) {
       const auto row = state.rowOf(reading.id);
       if (!row) continue;
@@ -76,6 +77,7 @@ class WrongAssociation final : public EkfEquations {
   }
 
   RandomSource random_;
+  std::vector<Observation> perceived_;
 };
 
 /// σ given where σ² is meant.

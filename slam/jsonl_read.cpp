@@ -116,6 +116,8 @@ void readOptional(std::string_view key, Value& value, Snapshot& snapshot, Shapes
   } else if (key == "observed") {
     snapshot.observed = json::ids(value, key);
     snapshot.observed_given = true;
+  } else if (key == "tentative") {
+    snapshot.tentative = json::ids(value, key);
   } else if (key == "observations") {
     json::forEach(value, key,
                   [&](Value& item) { snapshot.observations.push_back(observation(item)); });

@@ -138,6 +138,10 @@ void putOptional(Text& text, const Snapshot& snapshot) {
     text.put(", \"observed\": ");
     text.ids(snapshot.observed);
   }
+  if (!snapshot.tentative.empty()) {
+    text.put(", \"tentative\": ");
+    text.ids(snapshot.tentative);
+  }
   if (!snapshot.observations.empty()) {
     text.put(", \"observations\": ");
     text.list(snapshot.observations,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "slam/angle.hpp"
 
@@ -55,6 +56,25 @@ Eigen::Vector3d arcIncrement(const Eigen::Vector2d& velocity, double duration, M
         0.0, duration;
   }
   return {distance * f.along, distance * f.across, angle};
+}
+
+Eigen::Vector2d ackermannVelocity(const AckermannGeometry& geometry, const Eigen::Vector2d& control,
+                                  Eigen::Matrix2d* J) {
+  const double L = geometry.wheelbase;
+  if (!(L > 0.0)) {
+    throw std::invalid_argument("a car needs a wheelbase above 0 m, got " + std::to_string(L));
+  }
+  const double h = geometry.encoder_left / L;
+  const double tangent = std::tan(control[1]);
+  const double d_tangent = 1.0 + tangent * tangent;
+  const double share = 1.0 / (1.0 - h * tangent);
+  const double forward = control[0] * share;
+  if (J != nullptr) {
+    const double d_forward = forward * share * h * d_tangent;
+    *J << share, d_forward,  //
+        share * tangent / L, (d_forward * tangent + forward * d_tangent) / L;
+  }
+  return {forward, forward * tangent / L};
 }
 
 Motion Motion::fromVelocity(double forward, double turn, double duration,

@@ -26,6 +26,22 @@ struct Motion {
                                             const Eigen::Matrix3d& M);
 };
 
+/// A car that steers with its front wheels. Its pose is that of the middle of the rear axle.
+struct AckermannGeometry {
+  double wheelbase = 0.0;  ///< m, from axle to axle
+  /// m, how far left of the middle the rear wheel runs whose speed is measured; 0: in the middle.
+  double encoder_left = 0.0;
+};
+
+/// (forward m/s, turn rad/s) of the middle of the rear axle from `control` = (speed m/s of the
+/// measured wheel, steering rad, left positive): v = speed / (1 − H/L tan α), ω = v/L tan α
+/// (Guivant and Nebot, "Optimization of the simultaneous localization and map-building algorithm
+/// for real-time implementation", IEEE TRA 17(3), 2001). Jacobian by the control on request. Throws
+/// std::invalid_argument for a wheelbase that is not positive.
+[[nodiscard]] Eigen::Vector2d ackermannVelocity(const AckermannGeometry& geometry,
+                                                const Eigen::Vector2d& control,
+                                                Eigen::Matrix2d* J = nullptr);
+
 /// Body-frame increment of the exact arc driven at `velocity` = (forward m/s, turn rad/s) for
 /// `duration` (s). Jacobian by the velocity on request.
 [[nodiscard]] Eigen::Vector3d arcIncrement(const Eigen::Vector2d& velocity, double duration,

@@ -44,8 +44,8 @@ void readSightings(const std::string& path, const std::map<FeatureId, FeatureId>
     table.expectCells(4, "time, barcode, range, bearing");
     const auto time = table.time(0, "time");
     const auto subject = subjects.find(table.id(1, "barcode"));
-    const RangeBearing seen{subject == subjects.end() ? 0 : subject->second,
-                            table.number(2, "range"), table.number(3, "bearing"), std::nullopt};
+    const Sighting seen{subject == subjects.end() ? 0 : subject->second,
+                        {table.number(2, "range"), table.number(3, "bearing")}};
     if (seen.id < kFirstLandmark || seen.id > kLastLandmark) {
       ++(subject == subjects.end() ? recording.unknown_ids : recording.ignored_sightings);
       continue;
@@ -96,6 +96,7 @@ Recording readMrclam(const std::string& directory, int robot) {
   const std::string of_robot = base + "Robot" + std::to_string(robot) + "_";
   Recording recording;
   recording.name = "MR.CLAM robot " + std::to_string(robot);
+  recording.separation = 0.1;
   readOdometry(of_robot + "Odometry.dat", recording);
   readSightings(of_robot + "Measurement.dat", readBarcodes(base + "Barcodes.dat"), recording);
   readTruePath(of_robot + "Groundtruth.dat", recording);

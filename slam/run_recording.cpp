@@ -6,29 +6,59 @@
 #include <limits>
 #include <stdexcept>
 
+#include "slam/first_estimates.hpp"
+
 namespace slamscope::slam {
 namespace {
 
 using std::chrono::nanoseconds;
 
-EkfOptions filterOptions(const RecordingRunOptions& options) {
+/// So many sightings of one id in a row outside the gate are no accident.
+constexpr int kSuspicious = 5;
+
+EkfOptions recordingFilter(const Recording& recording, const RecordingRunOptions& options) {
   if (!(options.sensor_sigma.minCoeff() > 0.0) || !(options.odometry_sigma.minCoeff() >= 0.0) ||
       !(options.initial_sigma.minCoeff() >= 0.0) || options.longest_prediction.count() <= 0) {
     throw std::invalid_argument(
         "RecordingRun: σ of the sensor must be above 0, other σ not negative");
   }
+  const bool known = options.association == Association::known;
+  if (known && (!recording.ids_known || !recording.scans.empty())) {
+    throw std::invalid_argument(recording.name +
+                                ": features have no ids here, so their association can't be known; "
+                                "take nearest or joint");
+  }
   EkfOptions result;
+  result.sensor = recording.sensor;
   result.update = options.update;
-  result.gate_probability = options.gate_probability;
+  if (known) result.gate_probability = options.gate_probability;
   result.initial_covariance = options.initial_sigma.cwiseAbs2().asDiagonal();
   result.record_jacobians = options.record_jacobians;
   return result;
 }
 
+std::unique_ptr<EkfEquations> recordingEquations(const Recording& recording,
+                                                 const RecordingRunOptions& options) {
+  if (options.first_estimates) return std::make_unique<FirstEstimates>(recording.sensor);
+  return std::make_unique<EkfEquations>(recording.sensor);
+}
+
+std::string counted(std::uint64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what;
+}
+
 }  // namespace
 
 RecordingRun::RecordingRun(Recording recording, const RecordingRunOptions& options)
-    : recording_(std::move(recording)), options_(options), filter_(filterOptions(options)) {}
+    : recording_(std::move(recording)),
+      options_(options),
+      filter_(recordingFilter(recording_, options), recordingEquations(recording_, options)),
+      dead_reckoning_(recording_, options.odometry_sigma) {
+  if (!recording_.scans.empty()) front_end_.emplace(recording_.laser, options.laser);
+  if (options.association != Association::known) {
+    map_.emplace(filter_, options.association, options.gates, options.life);
+  }
+}
 
 bool RecordingRun::step() {
   if (!started_) {
@@ -37,93 +67,132 @@ bool RecordingRun::step() {
     filter_.start(recording_.start());
     return true;
   }
-  if (next_sighting_ == recording_.sightings.size()) return false;
-  const Sightings& next = recording_.sightings[next_sighting_];
+  if (next_ == recording_.sensedCount()) return false;
+  const nanoseconds time = recording_.sensedAt(next_);
   const nanoseconds latest = filter_.time() + options_.longest_prediction;
-  if (next.time > latest) {
+  if (time > latest) {
     predictTo(latest);
     return true;
   }
-  predictTo(next.time);
-  filter_.observe(next.time, observationsOf(next));
-  ++next_sighting_;
+  predictTo(time);
+  sense(next_);
+  ++next_;
   return true;
 }
 
 double RecordingRun::progress() const {
   if (!started_) return 0.0;
-  if (next_sighting_ == recording_.sightings.size()) return 1.0;
-  const double duration = seconds(recording_.sightings.back().time - recording_.start());
+  const std::size_t count = recording_.sensedCount();
+  if (next_ == count) return 1.0;
+  const double duration = seconds(recording_.sensedAt(count - 1) - recording_.start());
   return duration > 0.0 ? seconds(filter_.time() - recording_.start()) / duration : 1.0;
 }
 
 RunHeader RecordingRun::header() const {
   RunHeader header;
-  header.sensor = Sensor::range_bearing;
+  header.sensor = recording_.sensor;
   header.robot = recording_.name;
-  const bool own_sigmas = std::any_of(
+  const bool own_noise = std::any_of(
       recording_.sightings.begin(), recording_.sightings.end(), [](const Sightings& group) {
         return std::any_of(group.seen.begin(), group.seen.end(),
-                           [](const RangeBearing& seen) { return seen.sigma.has_value(); });
+                           [](const Sighting& seen) { return seen.R.has_value(); });
       });
-  if (!own_sigmas) {
+  if (!own_noise && recording_.scans.empty()) {
     header.R = Eigen::Matrix2d(options_.sensor_sigma.cwiseAbs2().asDiagonal());
   }
   return header;
 }
 
+std::optional<MapCounters> RecordingRun::mapCounters() const {
+  if (!map_) return std::nullopt;
+  return map_->counters();
+}
+
+std::map<FeatureId, FeatureId> RecordingRun::hiddenNames() const {
+  std::map<FeatureId, FeatureId> names;
+  for (const FeatureId id : filter_.state().ids) {
+    if (map_ && map_->confirmed(id) && map_->nameOf(id) != 0) names[id] = map_->nameOf(id);
+  }
+  return names;
+}
+
+std::vector<std::string> RecordingRun::remarks() const {
+  std::vector<std::string> lines;
+  for (const auto& [id, count] : most_rejected_) {
+    lines.push_back("feature " + std::to_string(id) + ": " + std::to_string(count) +
+                    " sightings in a row were far from where it stands; is its id used for another "
+                    "place, or has it moved?");
+  }
+  if (!map_) return lines;
+  const MapCounters& c = map_->counters();
+  if (c.crowded > 0) {
+    lines.push_back(counted(c.crowded,
+                            "readings made no feature: too near to another one, or too many that "
+                            "are tentative already"));
+  }
+  if (c.cut_searches > 0) {
+    lines.push_back(counted(c.cut_searches,
+                            "joint searches were cut short, the best pairings until then taken"));
+  }
+  return lines;
+}
+
 void RecordingRun::predictTo(nanoseconds time) {
   publishTruth(time);
-  if (time > filter_.time()) filter_.predict(time, motionBetween(filter_.time(), time));
+  if (time > filter_.time()) filter_.predict(time, dead_reckoning_.between(filter_.time(), time));
 }
 
-/// What entry number `entry` moved the robot between two times.
-Eigen::Vector3d RecordingRun::entryMotion(std::size_t entry, nanoseconds from,
-                                          nanoseconds to) const {
-  const auto& entries = recording_.odometry;
-  if (recording_.odometry_kind == Recording::Odometry::velocity) {
-    const Eigen::Vector3d& velocity = entries[entry].motion;
-    return arcIncrement({velocity[0], velocity[2]}, seconds(to - from));
+void RecordingRun::sense(std::size_t index) {
+  if (front_end_) {
+    const LaserScan& scan = recording_.scans[index];
+    map_->observe(scan.time, front_end_->observations(scan, dead_reckoning_.velocity()),
+                  front_end_->view(scan));
+    return;
   }
-  const nanoseconds begin = entries[entry].time;
-  const double length = seconds(entries[entry + 1].time - begin);
-  const Eigen::Vector3d& moved = entries[entry + 1].motion;
-  if (length == 0.0) return moved;
-  return incrementBetween(seconds(from - begin) / length * moved,
-                          seconds(to - begin) / length * moved);
+  const Sightings& sightings = recording_.sightings[index];
+  if (map_) {
+    map_->observe(sightings.time, observationsOf(sightings), limitedView());
+    return;
+  }
+  filter_.observe(sightings.time, observationsOf(sightings));
+  watchIds();
 }
 
-/// All odometry between two times in one motion: increments composed, their noise by Jacobians.
-/// The interval of entry k goes from its time to that of entry k + 1.
-Motion RecordingRun::motionBetween(nanoseconds from, nanoseconds to) {
-  const auto& entries = recording_.odometry;
-  Motion total;
-  for (; next_entry_ + 1 < entries.size() && entries[next_entry_].time <= to; ++next_entry_) {
-    const nanoseconds begin = std::max(from, entries[next_entry_].time);
-    const nanoseconds end = std::min(to, entries[next_entry_ + 1].time);
-    const Eigen::Vector3d moved = entryMotion(next_entry_, begin, end);
-    Eigen::Matrix3d F_x;
-    Eigen::Matrix3d G_u;
-    total.increment = movePose(total.increment, moved, &F_x, &G_u);
-    total.M = F_x * total.M * F_x.transpose();
-    if (!moved.isZero(0.0)) {
-      const Eigen::Vector3d variance = seconds(end - begin) * options_.odometry_sigma.cwiseAbs2();
-      total.M += G_u * variance.asDiagonal() * G_u.transpose();
-    }
-    if (entries[next_entry_ + 1].time > to) break;
+/// Notes ids whose sightings fall outside the gate time after time.
+void RecordingRun::watchIds() {
+  const auto& rejected = filter_.rejected();
+  for (const Sighting& seen : recording_.sightings[next_].seen) {
+    int& in_a_row = rejected_in_a_row_[seen.id];
+    const bool out = std::find(rejected.begin(), rejected.end(), seen.id) != rejected.end();
+    in_a_row = out ? in_a_row + 1 : 0;
+    if (in_a_row < kSuspicious) continue;
+    int& most = most_rejected_[seen.id];
+    most = std::max(most, in_a_row);
   }
-  total.control = total.increment;
-  return total;
 }
 
 std::vector<Observation> RecordingRun::observationsOf(const Sightings& sightings) const {
   std::vector<Observation> observations;
   observations.reserve(sightings.seen.size());
-  for (const RangeBearing& seen : sightings.seen) {
-    const Eigen::Vector2d sigma = seen.sigma.value_or(options_.sensor_sigma);
-    observations.push_back({seen.id, {seen.range, seen.bearing}, sigma.cwiseAbs2().asDiagonal()});
+  const Eigen::Matrix2d R = options_.sensor_sigma.cwiseAbs2().asDiagonal();
+  for (const Sighting& seen : sightings.seen) {
+    observations.push_back({seen.id, seen.z, seen.R.value_or(R)});
   }
   return observations;
+}
+
+MapBuilder::View RecordingRun::limitedView() const {
+  if (!options_.view) return {};
+  return [limits = *options_.view, sensor = recording_.sensor](const Eigen::Vector2d& z,
+                                                               const Eigen::Matrix2d& S) {
+    const Eigen::Vector2d polar =
+        sensor == Sensor::range_bearing ? z : Eigen::Vector2d(z.norm(), std::atan2(z.y(), z.x()));
+    const double across = sensor == Sensor::range_bearing
+                              ? std::sqrt(S(1, 1))
+                              : std::sqrt(S.diagonal().maxCoeff()) / polar[0];
+    return polar[0] + 2.0 * std::sqrt(S(0, 0)) < limits.range &&
+           std::abs(polar[1]) + 2.0 * across < limits.half_angle;
+  };
 }
 
 void RecordingRun::publishTruth(nanoseconds time) {
@@ -132,6 +201,7 @@ void RecordingRun::publishTruth(nanoseconds time) {
   Truth truth;
   truth.pose = recording_.truthAt(time).value_or(Eigen::Vector3d::Constant(kUnknown));
   for (const auto& [id, feature] : recording_.truth_features) {
+    if (map_) break;  // the map's numbers are not these ids
     truth.ids.push_back(id);
     truth.features.push_back(feature);
   }

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <chrono>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "slam/recording.hpp"
 #include "slam/subject.hpp"
 
 namespace slamscope::slam {
@@ -32,6 +34,7 @@ struct Score {
   std::optional<double> features_rms;
   std::optional<double> path_rms;
   std::size_t path_samples = 0;
+  int duplicates = 0;  ///< features beyond the first of one name
 };
 
 /// Observes a run and scores it. Features: the last snapshot's, aligned by the features. Path: one
@@ -42,14 +45,24 @@ class Scorer {
  public:
   /// Listens to `events` of `subject` until it is destroyed.
   explicit Scorer(Subject& subject, EventSet events = {Event::step});
+  /// Scores the path against that of `recording`, whose frame may be its own (GPS), so with
+  /// alignment only. `recording` must outlive this.
+  Scorer(Subject& subject, const Recording& recording);
   Scorer(const Scorer&) = delete;
   Scorer& operator=(const Scorer&) = delete;
 
   [[nodiscard]] Score score() const;
+  /// Where the map's features have numbers of their own: `names` gives the id in `recording` of
+  /// those that are to be scored.
+  [[nodiscard]] Score score(const Recording& recording,
+                            const std::map<FeatureId, FeatureId>& names) const;
 
  private:
   void take(const SnapshotPtr& snapshot);
+  [[nodiscard]] Score pathScore() const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> truePosition(const Snapshot& snapshot) const;
 
+  const Recording* own_frame_ = nullptr;
   SnapshotPtr last_;
   std::vector<std::chrono::nanoseconds> times_;
   std::vector<Eigen::Vector2d> path_;

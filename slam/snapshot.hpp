@@ -82,9 +82,12 @@ struct Snapshot {
   Eigen::Vector3d pose = Eigen::Vector3d::Zero();  ///< x, y (m), θ (rad)
   std::vector<FeatureId> ids;
   std::vector<Eigen::Vector2d> features;  ///< m, frame of the map
-  std::vector<std::string> extra;         ///< names of states appended after the features
-  PackedCovariance covariance;            ///< m², m·rad, rad²; size 3 + 2n + extra
-  bool diagonal_only = false;             ///< off-diagonal entries were not logged (level L0)
+  /// Features of the map that have not been seen often enough to be believed in, of `ids`. Spurious
+  /// ones never get beyond.
+  std::vector<FeatureId> tentative;
+  std::vector<std::string> extra;  ///< names of states appended after the features
+  PackedCovariance covariance;     ///< m², m·rad, rad²; size 3 + 2n + extra
+  bool diagonal_only = false;      ///< off-diagonal entries were not logged (level L0)
   /// Worst |P − Pᵀ| of the full matrix that was read; absent where only a triangle was written.
   std::optional<double> asymmetry;
   std::vector<FeatureId> observed;  ///< ids observed in this event

@@ -141,6 +141,28 @@ class Csv(program.InAFolder):
         self.assertEqual(status, 0, errors)
         self.assertEqual(self.load("s.json")["features_found"], 2)
 
+    def test_sightings_without_ids_are_associated(self):
+        self.data()
+        self.write("d/range_bearing.csv",
+                   "time_s,range_m,bearing_rad\n0.5,2.0,0.3\n1.0,1.5,0.4\n1.5,1.05,0.58\n1.5,3.0,-0.2\n")
+        for association in ([], ["--association", "nearest"]):
+            status, _, errors = self.run_here("slam", "--csv", "d", "--score-json", "s.json", *association)
+            self.assertEqual(status, 0, errors)
+            self.assertEqual(self.load("s.json")["features"], 2)
+        self.refused("slam", "--csv", "d", "--association", "known", saying=["nearest or joint"])
+
+    def test_a_car_with_a_laser(self):
+        self.write("d/odometry.csv", "time_s,speed_mps,steering_rad\n0,1,0\n1,1,0\n2,1,0\n")
+        far = ",".join(["9"] * 50)
+        self.write("d/scans.csv", "time_s,angle_min_rad,angle_step_rad\n"
+                   f"0.5,-0.5,0.01,{far},3,3,3,{far}\n1.0,-0.5,0.01,{far},2.5,2.5,2.5,{far}\n")
+        self.refused("slam", "--csv", "d", saying=["wheelbase"])
+        status, _, errors = self.run_here("slam", "--csv", "d", "--vehicle", "ackermann", "--wheelbase", "2",
+                                          "--confirm", "2", "--score-json", "s.json", "-o", "r.jsonl")
+        self.assertEqual(status, 0, errors)
+        self.assertEqual(self.load("s.json")["confirmed"], 1)
+        self.assertIn('"tentative": [1]', (self.folder / "r.jsonl").read_text())
+
     def test_time_that_goes_back_names_file_and_line(self):
         self.data(odometry="0,1,0\n2,1,0\n1,1,0\n")
         self.refused("slam", "--csv", "d", saying=["odometry.csv:4"])

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // slamscope_experiments: the tables of what the audit finds and of what it wrongly finds, and of
-// how well heads are tracked.
+// what association makes of an ambiguous world, how consistent the models are, how well heads are
+// tracked.
 #include <CLI/CLI.hpp>
 
+#include "tests/experiments/association_table.hpp"
+#include "tests/experiments/consistency_table.hpp"
 #include "tests/experiments/fault_table.hpp"
 #include "tests/experiments/healthy_table.hpp"
 #ifdef SLAMSCOPE_VIEW
@@ -11,7 +14,7 @@
 
 int main(int argc, char** argv) {
   namespace experiments = slamscope::slam::experiments;
-  CLI::App app{"Experiments on audit and tracking"};
+  CLI::App app{"Experiments on audit, association, consistency and tracking"};
   app.require_subcommand(1);
   CLI::App* audit = app.add_subcommand("audit", "faults found, false alarms, lawful variants");
   experiments::FaultTableOptions faults;
@@ -40,10 +43,22 @@ int main(int argc, char** argv) {
   track->add_flag("--pictures,!--no-pictures", tracking.pictures,
                   "the walks through the lab at all");
 #endif
+  CLI::App* association =
+      app.add_subcommand("association", "nearest and joint in an ambiguous world");
+  experiments::AssociationTableOptions ambiguous;
+  association->add_option("--seeds", ambiguous.seeds, "runs of each line")->capture_default_str();
+  association->add_option("--threads", ambiguous.threads, "0: one per core")->capture_default_str();
+  CLI::App* consistency = app.add_subcommand("consistency", "NIS and ANEES over the models");
+  experiments::ConsistencyTableOptions models;
+  consistency->add_option("--runs", models.runs, "of each line")->capture_default_str();
+  consistency->add_option("--loops", models.loops, "driven in each run")->capture_default_str();
+  consistency->add_option("--threads", models.threads, "0: one per core")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 #ifdef SLAMSCOPE_VIEW
   if (*track) return slamscope::tracking::experiments::printTrackingTable(tracking) == 0 ? 0 : 1;
 #endif
+  if (*consistency) return experiments::printConsistencyTable(models) == 0 ? 0 : 1;
+  if (*association) return experiments::printAssociationTable(ambiguous) == 0 ? 0 : 1;
   faults.alpha = variants.alpha = healthy.alpha;
   faults.threads = variants.threads = healthy.threads;
   int wrong_verdicts = 0;

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "slam/ekf_right_solve.hpp"
 #include "slam/simulation_random.hpp"
 
 namespace slamscope::slam {
@@ -13,6 +14,7 @@ namespace {
 TEST(RankUpdate, IsTheOuterProductInTheLowerTriangleAndNothingElse) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   RandomSource random(6);
+  RankUpdate rank_update;
   for (const int size : {1, 3, 7, 8, 9, 15, 16, 17, 33, 64, 203}) {
     for (const int m : {1, 2, 6, 20}) {
       Eigen::MatrixXd P(size, size);
@@ -21,7 +23,7 @@ TEST(RankUpdate, IsTheOuterProductInTheLowerTriangleAndNothingElse) {
       for (double& value : Y.reshaped()) value = random.normal();
       const Eigen::MatrixXd expected = P - Y * Y.transpose();
       P.triangularView<Eigen::StrictlyUpper>().setConstant(kNan);
-      subtractOuterProduct(P, Y);
+      rank_update.subtract(P, Y);
       double worst = 0.0;
       double worst_of_twin = 0.0;
       for (int col = 0; col < size; ++col) {
@@ -37,6 +39,44 @@ TEST(RankUpdate, IsTheOuterProductInTheLowerTriangleAndNothingElse) {
       }
       EXPECT_LT(worst, 1e-13) << size << " x " << m;
       EXPECT_GT(worst_of_twin, 1e-3) << "must fail: one column left out";
+    }
+  }
+}
+
+TEST(RankUpdate, TwoThreadsGiveTheSameBits) {
+  RandomSource random(7);
+  constexpr int kSize = 701;
+  Eigen::MatrixXd P(kSize, kSize);
+  Eigen::MatrixXd Y(kSize, 20);
+  for (double& value : P.reshaped()) value = random.normal();
+  for (double& value : Y.reshaped()) value = random.normal();
+  Eigen::MatrixXd one = P;
+  RankUpdate alone;
+  alone.setThreads(1);
+  alone.subtract(one, Y);
+  RankUpdate both;
+  for (int repeated = 0; repeated < 20; ++repeated) {
+    Eigen::MatrixXd two = P;
+    both.subtract(two, Y);
+    ASSERT_TRUE(one == two);
+  }
+  EXPECT_FALSE(one == P);
+}
+
+TEST(RightSolve, UndoesTheProductWithLTransposed) {
+  RandomSource random(8);
+  for (const int size : {3, 8, 33, 203}) {
+    for (const int m : {2, 20, 130}) {
+      Eigen::MatrixXd L = Eigen::MatrixXd::Identity(m, m) * 20.0;
+      Eigen::MatrixXd Y(size, m);
+      for (double& value : L.reshaped()) value += random.normal();
+      for (double& value : Y.reshaped()) value = random.normal();
+      Eigen::MatrixXd solved = Y * L.triangularView<Eigen::Lower>().transpose();
+      solveFromTheRight(L, solved);  // what is above L's diagonal must not matter
+      EXPECT_LT((solved - Y).cwiseAbs().maxCoeff(), 1e-12);
+      solved = Y * L.triangularView<Eigen::Lower>();
+      solveFromTheRight(L, solved);
+      EXPECT_GT((solved - Y).cwiseAbs().maxCoeff(), 1e-3) << "must fail: not transposed";
     }
   }
 }

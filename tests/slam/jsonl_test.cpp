@@ -88,6 +88,7 @@ TEST(JsonLines, RoundTripComparatorRejectsALostSignOfZeroAndALostDigit) {
 TEST(JsonLines, KeepEverythingOptional) {
   Snapshot written = oddSnapshot();
   written.observed = {7};
+  written.tentative = {7};
   written.observed_given = true;
   written.control = Eigen::Vector2d(0.3, -0.1);
   written.Q = Eigen::Matrix3d(Eigen::Vector3d(1e-4, 2e-4, 3e-4).asDiagonal());
@@ -103,6 +104,7 @@ TEST(JsonLines, KeepEverythingOptional) {
   const Snapshot read = parse(formatRecord(written));
   EXPECT_TRUE(read.observed_given);
   EXPECT_EQ(read.observed, written.observed);
+  EXPECT_EQ(read.tentative, written.tentative);
   EXPECT_EQ(*read.control, *written.control);
   EXPECT_EQ(*read.Q, *written.Q);
   EXPECT_EQ(read.truth->pose, written.truth->pose);

@@ -11,6 +11,9 @@
 
 #include "slam/csv_recording.hpp"
 #include "slam/decimal_time.hpp"
+#include "slam/formats/isam_graph.hpp"
+#include "slam/formats/mrpt_sightings.hpp"
+#include "slam/formats/victoria_park.hpp"
 #include "slam/mrclam.hpp"
 
 namespace slamscope::slam {
@@ -79,8 +82,8 @@ TEST_F(Csv, VelocitiesAndSightingsAreRead) {
   ASSERT_EQ(recording.sightings.size(), 2U);
   ASSERT_EQ(recording.sightings[0].seen.size(), 2U);
   EXPECT_EQ(recording.sightings[0].seen[1].id, 8U);
-  EXPECT_EQ(recording.sightings[0].seen[1].bearing, -0.1);
-  EXPECT_FALSE(recording.sightings[0].seen[1].sigma);
+  EXPECT_EQ(recording.sightings[0].seen[1].z[1], -0.1);
+  EXPECT_FALSE(recording.sightings[0].seen[1].R);
   EXPECT_EQ(recording.equal_stamps, 1U);
   EXPECT_TRUE(recording.warnings.empty()) << "several features at one time are nothing odd";
   EXPECT_FALSE(recording.truth_in_map);
@@ -96,8 +99,8 @@ TEST_F(Csv, IncrementsSigmasAndColumnsInAnyOrderAreRead) {
   const Recording recording = read();
   EXPECT_EQ(recording.odometry_kind, Recording::Odometry::increment);
   EXPECT_EQ(recording.odometry[0].motion, Eigen::Vector3d(0.2, 0.3, 0.1));
-  EXPECT_EQ(recording.sightings[0].seen[0].sigma, Eigen::Vector2d(0.1, 0.02));
-  EXPECT_FALSE(recording.sightings[0].seen[1].sigma);
+  EXPECT_EQ(recording.sightings[0].seen[0].R->diagonal(), Eigen::Vector2d(0.1 * 0.1, 0.02 * 0.02));
+  EXPECT_FALSE(recording.sightings[0].seen[1].R);
 }
 
 TEST_F(Csv, TruthIsMovedIntoTheFrameOfTheMap) {
@@ -148,7 +151,8 @@ TEST_F(Csv, ErrorsNameFileLineAndColumn) {
 TEST_F(Csv, AnUnknownColumnIsAnsweredWithTheNearestKnown) {
   EXPECT_EQ(errorWithOdometry("time_s,foward_mps,turn_radps\n0,0,0\n"),
             "odometry.csv:1: foward_mps: expected a column of "
-            "time_s,forward_mps,turn_radps,dx_m,dy_m,dtheta_rad, found an unknown name (nearest: "
+            "time_s,forward_mps,turn_radps,speed_mps,steering_rad,dx_m,dy_m,dtheta_rad, found an "
+            "unknown name (nearest: "
             "forward_mps)");
   EXPECT_EQ(errorWithOdometry("0,0.5,0\n1,0.5,0\n").substr(0, 18), "odometry.csv:1: 0:")
       << "a file without header";
@@ -219,6 +223,57 @@ TEST_F(Mrclam, ErrorsNameFileLineAndColumn) {
   store("Robot2_Odometry.dat", "100 0.1 0\n");
   EXPECT_EQ(error(), "Barcodes.dat: can't be opened (No such file or directory)");
   EXPECT_THROW((void)readMrclam(folder_, 9), std::runtime_error);
+}
+
+TEST_F(RecordingFiles, IsamGraphsMayLeaveOutNumbers) {
+  store("g.txt",
+        "ODOMETRY 0 1 1 0 0.1 100 0 0 500 0 500\nLANDMARK 1 2 3 4 2 0 4\n"
+        "ODOMETRY 1 3 1 0 0.1 100 0 0 500 0 500\nLANDMARK 3 2 2 4 2 0 4\n");
+  const Recording recording = readIsamGraph(folder_ / "g.txt");
+  EXPECT_EQ(recording.sensor, Sensor::relative_position);
+  ASSERT_EQ(recording.odometry.size(), 3U);
+  EXPECT_EQ(recording.odometry[2].time, 300ms);
+  EXPECT_TRUE(recording.odometry[1].M->isApprox(
+      Eigen::Matrix3d(Eigen::Vector3d(1e-4, 4e-6, 4e-6).asDiagonal())));
+  EXPECT_TRUE(recording.sightings[1].seen[0].R->isApprox(
+      Eigen::Matrix2d(Eigen::Vector2d(0.25, 0.0625).asDiagonal())));
+  const auto error = [&](const std::string& text) {
+    store("g.txt", text);
+    return errorOf([&] { static_cast<void>(readIsamGraph(folder_ / "g.txt")); });
+  };
+  EXPECT_EQ(error("ODOMETRY 1 2 1 0 0 1 0 0 1 0 1\n"),
+            "g.txt:1: pose: expected 0, the newest one, found 1");
+  EXPECT_EQ(error("EDGE 1 2\n"), "g.txt:1: line: expected ODOMETRY or LANDMARK, found EDGE");
+  EXPECT_EQ(error("LANDMARK 0 2 1 1 0 0 1\n"),
+            "g.txt:1: sqrtinf: expected a diagonal without zeros, found 0");
+}
+
+TEST_F(RecordingFiles, MrptSightingsErrorsNameFileLineAndColumn) {
+  store("a.txt", "% stamp index id range yaw pitch\n1.0 0 -1 2.0 0.1 0\n1.0 1 5 3.0 0.2 0\n");
+  const Recording recording = readMrptSightings(folder_ / "a.txt");
+  EXPECT_FALSE(recording.ids_known);
+  ASSERT_EQ(recording.sightings.size(), 1U);
+  EXPECT_EQ(recording.sightings[0].seen[1].z, Eigen::Vector2d(3.0, 0.2));
+  store("a.txt", "1.0 0 7 -2.0 0.1 0\n");
+  EXPECT_EQ(errorOf([&] { static_cast<void>(readMrptSightings(folder_ / "a.txt")); }),
+            "a.txt:1: range: expected a number above 0, found -2.0");
+}
+
+TEST_F(RecordingFiles, VictoriaParkSaysWhatIsCutOff) {
+  store("DRS.txt", "0.1 1.0 0.1\n0.2 1.0 0.1\n");
+  store("GPS.txt", "0.1 0 0\n0.3 0.1 0.1\n0.5 50 50\n0.7 0.2 0.2\n");
+  std::string scan = "0.15";
+  for (int k = 0; k < 361; ++k) scan += k == 10 ? " 5.5" : " 81.91";
+  store("LASER.txt", scan + " 0.25 1 2");
+  const Recording recording = readVictoriaPark(folder_);
+  ASSERT_EQ(recording.scans.size(), 1U);
+  EXPECT_EQ(recording.scans[0].ranges[10], 5.5);
+  EXPECT_TRUE(std::isnan(recording.scans[0].ranges[11]));
+  EXPECT_EQ(recording.truth_path.size(), 3U) << "one fix jumps";
+  EXPECT_EQ(recording.warnings.size(), 2U);
+  store("DRS.txt", "0.1 1.0 x\n");
+  EXPECT_EQ(errorOf([&] { static_cast<void>(readVictoriaPark(folder_)); }),
+            "DRS.txt: number 3: expected a number, found x");
 }
 
 TEST(Recording, TruthIsInterpolatedTheShortWayRound) {

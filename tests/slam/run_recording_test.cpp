@@ -40,7 +40,7 @@ Recording arcRecording(Recording::Odometry kind) {
     for (const auto& [id, feature] :
          {std::pair{FeatureId{3}, Eigen::Vector2d(2, 1)}, {FeatureId{9}, Eigen::Vector2d(0, 3)}}) {
       const Eigen::Vector2d z = observeFeature(Sensor::range_bearing, pose, feature);
-      addSighting(recording, time, {id, z[0], z[1], std::nullopt});
+      addSighting(recording, time, {id, z});
     }
   }
   return recording;
@@ -100,7 +100,7 @@ TEST(RecordingRun, NoiseDoesNotDependOnTheRateOfTheOdometry) {
     for (auto time = 0ns; time <= 10s; time += interval) {
       recording.odometry.push_back({time, {0.5, 0.0, 0.2}});
     }
-    addSighting(recording, 10s, {1, 1.0, 0.0, std::nullopt});
+    addSighting(recording, 10s, {1, {1.0, 0.0}});
     RecordingRun run(recording, {.longest_prediction = 100s});
     while (run.step()) {
     }
@@ -114,7 +114,7 @@ TEST(RecordingRun, UsesTheSigmasOfTheRecording) {
   Recording recording = arcRecording(Recording::Odometry::velocity);
   RecordingRun constant(recording, {});
   EXPECT_TRUE(constant.header().R.has_value());
-  recording.sightings[0].seen[0].sigma = Eigen::Vector2d(1.0, 0.5);
+  recording.sightings[0].seen[0].R = Eigen::Matrix2d(Eigen::Vector2d(1.0, 0.25).asDiagonal());
   RecordingRun own(recording, {});
   EXPECT_FALSE(own.header().R.has_value());
   for (int k = 0; k < 2; ++k) {

@@ -36,13 +36,13 @@ class DiffuseFilter final : public EkfEquations {
  public:
   using EkfEquations::EkfEquations;
 
-  std::vector<Observation> perceive(const EkfState& state,
-                                    std::span<const Observation> readings) override {
-    std::vector<Observation> perceived(readings.begin(), readings.end());
+  std::span<const Observation> perceive(const EkfState& state,
+                                        std::span<const Observation> readings) override {
+    perceived_.assign(readings.begin(), readings.end());
     for (const Observation& o : readings) {
-      if (!state.rowOf(o.id)) perceived.push_back(o);  // the second one becomes an update
+      if (!state.rowOf(o.id)) perceived_.push_back(o);  // the second one becomes an update
     }
-    return perceived;
+    return perceived_;
   }
 
   void initialiseCovariance(EkfState& state, const Matrix23d& /*G_v*/,
@@ -50,6 +50,9 @@ class DiffuseFilter final : public EkfEquations {
     state.P.bottomLeftCorner(2, state.size() - 2).setZero();
     state.P.bottomRightCorner<2, 2>() = 1e4 * Eigen::Matrix2d::Identity();
   }
+
+ private:
+  std::vector<Observation> perceived_;
 };
 
 }  // namespace slamscope::slam::testing

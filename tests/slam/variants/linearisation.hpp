@@ -2,9 +2,8 @@
 // Filters that choose where they linearise.
 #pragma once
 
-#include <map>
-
 #include "slam/angle.hpp"
+#include "slam/first_estimates.hpp"
 #include "tests/slam/variants/joseph.hpp"
 
 namespace slamscope::slam::testing {
@@ -38,45 +37,7 @@ class IteratedFilter final : public EkfEquations {
   }
 };
 
-/// First-estimates Jacobian (Huang, Mourikis, Roumeliotis 2008): H at the predicted pose and at the
-/// place where each feature was first put; F by the difference of predicted poses.
-class FirstEstimatesFilter final : public EkfEquations {
- public:
-  using EkfEquations::EkfEquations;
-
-  Eigen::Matrix3d motionJacobian(const EkfState& state, const Motion& motion) override {
-    const Eigen::Vector2d from = predicted_.value_or(state.pose()).head<2>();
-    const Eigen::Vector2d shift = movePose(state.pose(), motion.increment).head<2>() - from;
-    Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
-    F(0, 2) = -shift.y();
-    F(1, 2) = shift.x();
-    return F;
-  }
-
-  void predictMean(EkfState& state, const Motion& motion) override {
-    EkfEquations::predictMean(state, motion);
-    predicted_ = state.pose();
-  }
-
-  ObservationJacobian observationJacobian(const EkfState& state, int row) override {
-    EkfState at = state;
-    if (predicted_) at.x.head<3>() = *predicted_;
-    const FeatureId id = state.ids[static_cast<std::size_t>((row - 3) / 2)];
-    if (const auto first = first_.find(id); first != first_.end()) {
-      at.x.segment<2>(row) = first->second;
-    }
-    return EkfEquations::observationJacobian(at, row);
-  }
-
-  void initialise(EkfState& state, const Observation& observation) override {
-    EkfEquations::initialise(state, observation);
-    first_[observation.id] = state.x.tail<2>();
-  }
-
- private:
-  std::optional<Eigen::Vector3d> predicted_;
-  std::map<FeatureId, Eigen::Vector2d> first_;
-};
+using FirstEstimatesFilter = FirstEstimates;
 
 /// Sequential updates that all keep the linearisation at the mean after the last prediction.
 class FrozenFilter final : public EkfEquations {

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "slam/association.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "slam/audit/chi_square.hpp"
+#include "slam/joint_search.hpp"
+
+namespace slamscope::slam {
+namespace {
+
+/// νᵀ S⁻¹ ν in closed form; not a number where S is not positive definite.
+double squaredDistance(const Eigen::Vector2d& innovation, const Eigen::Matrix2d& S) {
+  const double determinant = S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0);
+  if (!(determinant > 0.0) || !(S(0, 0) > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  return (innovation[0] * innovation[0] * S(1, 1) -
+          innovation[0] * innovation[1] * (S(0, 1) + S(1, 0)) +
+          innovation[1] * innovation[1] * S(0, 0)) /
+         determinant;
+}
+
+/// Each reading goes to its nearest feature, if no other is nearly as near; where two want the
+/// same, to the nearer of the two.
+void takeNearest(std::vector<Pairing> compatible, double margin, Matches& matches) {
+  std::sort(compatible.begin(), compatible.end(), [](const Pairing& a, const Pairing& b) {
+    return a.squared_distance < b.squared_distance;
+  });
+  std::vector<const Pairing*> nearest(matches.feature.size(), nullptr);
+  std::vector<bool> disputed(matches.feature.size(), false);
+  for (const Pairing& pairing : compatible) {
+    const auto reading = static_cast<std::size_t>(pairing.reading);
+    if (nearest[reading] == nullptr) {
+      nearest[reading] = &pairing;
+    } else if (pairing.squared_distance < nearest[reading]->squared_distance + margin) {
+      disputed[reading] = true;
+    }
+  }
+  std::vector<bool> taken(matches.hinted.size(), false);
+  for (const Pairing& pairing : compatible) {
+    const auto reading = static_cast<std::size_t>(pairing.reading);
+    const auto feature = static_cast<std::size_t>(pairing.feature);
+    if (nearest[reading] != &pairing || taken[feature]) continue;
+    taken[feature] = true;
+    if (disputed[reading]) continue;
+    matches.feature[reading] = pairing.feature;
+    matches.squared_distance += pairing.squared_distance;
+  }
+}
+
+void takeJoint(const JointSearch::Result& found, Matches& matches) {
+  for (const Pairing& pairing : found.pairings) {
+    matches.feature[static_cast<std::size_t>(pairing.reading)] = pairing.feature;
+  }
+  matches.squared_distance = found.squared_distance;
+  matches.cut_short = found.cut_short;
+}
+
+/// A reading near a feature that no other reading is of might be of that one. Near features that
+/// are taken it is of something else: a feature gives one reading at a time.
+void markAmbiguous(const std::vector<Pairing>& near, Matches& matches) {
+  std::vector<bool> taken(matches.hinted.size(), false);
+  for (const int feature : matches.feature) {
+    if (feature >= 0) taken[static_cast<std::size_t>(feature)] = true;
+  }
+  for (const Pairing& pairing : near) {
+    const auto feature = static_cast<std::size_t>(pairing.feature);
+    matches.hinted[feature] = true;
+    int& found = matches.feature[static_cast<std::size_t>(pairing.reading)];
+    if (found == Matches::kFresh && !taken[feature]) found = Matches::kAmbiguous;
+  }
+}
+
+}  // namespace
+
+std::vector<ExpectedReading> expectedReadings(const EkfState& state, Sensor sensor) {
+  std::vector<ExpectedReading> result(state.ids.size());
+  const Eigen::Matrix3d P_vv = state.P.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    ExpectedReading& e = result[k];
+    const int row = Snapshot::row(static_cast<int>(k));
+    e.z = observeFeature(sensor, state.pose(), state.x.segment<2>(row), &e.H_v, &e.H_f);
+    const Eigen::Matrix2d P_ff = state.P.block<2, 2>(row, row).selfadjointView<Eigen::Lower>();
+    const Eigen::Matrix2d cross = e.H_f * state.P.block<2, 3>(row, 0) * e.H_v.transpose();
+    e.HPHt = e.H_v * P_vv * e.H_v.transpose() + cross + cross.transpose() +
+             e.H_f * P_ff * e.H_f.transpose();
+  }
+  return result;
+}
+
+Associator::Associator(Sensor sensor, Association association, const AssociationGates& gates)
+    : sensor_(sensor), association_(association), gates_(gates) {
+  if (sensor == Sensor::unknown || association == Association::known) {
+    throw std::invalid_argument("an associator needs a sensor, and nearest or joint");
+  }
+  if (!(gates.pair > 0.0 && gates.pair <= gates.fresh && gates.fresh < 1.0 && gates.odds >= 1.0)) {
+    throw std::invalid_argument(
+        "association gates must be probabilities, 0 < pair <= fresh < 1, and odds 1 at least; "
+        "got " +
+        std::to_string(gates.pair) + ", " + std::to_string(gates.fresh) + " and " +
+        std::to_string(gates.odds));
+  }
+  margin_ = 2.0 * std::log(gates.odds);
+  fresh_quantile_ = chiSquareQuantile(1.0 - gates.fresh, 2.0);
+  const std::size_t most = association == Association::joint ? JointSearch::kMostReadings : 1;
+  for (std::size_t k = 1; k <= most; ++k) {
+    pair_quantile_.push_back(chiSquareQuantile(1.0 - gates.pair, 2.0 * static_cast<double>(k)));
+  }
+}
+
+Matches Associator::match(const EkfState& state, std::span<const ExpectedReading> expected,
+                          std::span<const Observation> readings) const {
+  Matches matches;
+  matches.feature.assign(readings.size(), Matches::kFresh);
+  matches.hinted.assign(expected.size(), false);
+  std::vector<Pairing> compatible;
+  std::vector<Pairing> near;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      const Eigen::Vector2d innovation =
+          observationDifference(sensor_, readings[i].z, expected[k].z);
+      const double squared = squaredDistance(innovation, expected[k].HPHt + readings[i].R);
+      if (!(squared <= fresh_quantile_)) continue;  // nor where it is not a number
+      near.push_back({static_cast<int>(i), static_cast<int>(k), innovation, squared});
+      if (squared <= pair_quantile_.front()) compatible.push_back(near.back());
+    }
+  }
+  if (association_ == Association::nearest) {
+    takeNearest(std::move(compatible), margin_, matches);
+  } else {
+    JointSearch search(state, expected, readings, {pair_quantile_, margin_, gates_.search_limit});
+    takeJoint(search.run(std::move(compatible)), matches);
+  }
+  markAmbiguous(near, matches);
+  return matches;
+}
+
+}  // namespace slamscope::slam

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "slam/ekf_right_solve.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace slamscope::slam {
+namespace {
+
+constexpr std::ptrdiff_t kPanelRows = 16;   // four vectors: sums that do not wait for one another
+constexpr std::ptrdiff_t kPanelCols = 128;  // wider ones go Eigen's way
+
+using FourLanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+
+/// Forward substitution of sixteen rows, column by column: y_j = (b_j − Σ_{k<j} y_k L_jk) / L_jj.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+[[gnu::target_clones("fma", "default")]]
+#endif
+void solvePanel(const double* L, std::ptrdiff_t m, double* panel) {
+  for (std::ptrdiff_t j = 0; j < m; ++j) {
+    auto* const y = reinterpret_cast<FourLanes*>(panel + j * kPanelRows);
+    FourLanes a = y[0], b = y[1], c = y[2], d = y[3];
+    for (std::ptrdiff_t k = 0; k < j; ++k) {
+      const auto* const known = reinterpret_cast<const FourLanes*>(panel + k * kPanelRows);
+      const double factor = L[k * m + j];
+      a -= known[0] * factor, b -= known[1] * factor;
+      c -= known[2] * factor, d -= known[3] * factor;
+    }
+    const double inverse = 1.0 / L[j * m + j];
+    y[0] = a * inverse, y[1] = b * inverse, y[2] = c * inverse, y[3] = d * inverse;
+  }
+}
+
+}  // namespace
+
+void solveFromTheRight(const Eigen::MatrixXd& L, Eigen::MatrixXd& Y) {
+  const std::ptrdiff_t size = Y.rows();
+  const std::ptrdiff_t m = Y.cols();
+  if (m > kPanelCols) {
+    L.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(Y);
+    return;
+  }
+  alignas(32) double panel[kPanelRows * kPanelCols];
+  for (std::ptrdiff_t row = 0; row < size; row += kPanelRows) {
+    const std::ptrdiff_t rows = std::min(kPanelRows, size - row);
+    double* const first = Y.data() + row;
+    for (std::ptrdiff_t k = 0; k < m; ++k) {
+      double* const column = panel + k * kPanelRows;
+      std::copy_n(first + k * size, rows, column);
+      std::fill_n(column + rows, kPanelRows - rows, 0.0);
+    }
+    solvePanel(L.data(), m, panel);
+    for (std::ptrdiff_t k = 0; k < m; ++k) {
+      std::copy_n(panel + k * kPanelRows, rows, first + k * size);
+    }
+  }
+}
+
+}  // namespace slamscope::slam

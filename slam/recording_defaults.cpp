@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "slam/recording_defaults.hpp"
+
+#include <numbers>
+
+namespace slamscope::slam {
+
+RecordingRunOptions usualOptions(const Recording& recording, Association association) {
+  RecordingRunOptions options;
+  options.association = association;
+  options.life.separation = recording.separation;
+  if (recording.odometry.empty()) {
+    options.odometry_sigma = {0.3, 0.3, 0.3};
+  } else if (recording.odometry_kind == Recording::Odometry::ackermann) {
+    options.odometry_sigma = {0.1, 0.05, 0.05};
+  }
+  if (association == Association::known || !recording.scans.empty()) return options;
+  options.sensor_sigma = {0.35, 0.06};
+  options.gates.pair = 0.9999;
+  options.gates.fresh = 0.999999;
+  options.life.confirm_after = 4;
+  options.life.drop_after = 6;
+  options.life.longest_doubt = std::chrono::nanoseconds(0);
+  options.view = {4.0, std::numbers::pi / 9.0};
+  return options;
+}
+
+}  // namespace slamscope::slam
