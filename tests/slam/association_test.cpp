@@ -20,14 +20,15 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Sensor kSensor = Sensor::range_bearing;
-const Eigen::Matrix2d kR = Eigen::Vector2d(0.0025, 0.0004).asDiagonal();
+const Eigen::Matrix2d kSightingNoise = Eigen::Vector2d(0.0025, 0.0004).asDiagonal();
 
 /// A filter at the origin that has `features` in its map; its heading is off by `sigma` then.
 struct Mapped {
   Mapped(const std::vector<Eigen::Vector2d>& features, double sigma) {
     FeatureId id = 0;
     for (const Eigen::Vector2d& feature : features) {
-      filter.initialise({++id, observeFeature(kSensor, Eigen::Vector3d::Zero(), feature), kR});
+      filter.initialise(
+          {++id, observeFeature(kSensor, Eigen::Vector3d::Zero(), feature), kSightingNoise});
     }
     const Eigen::Matrix3d M = Eigen::Vector3d(1e-4, 1e-4, sigma * sigma).asDiagonal();
     filter.predict(100ms, Motion::fromIncrement({0.01, 0, 0}, M));
@@ -39,7 +40,7 @@ std::vector<Observation> readingsFrom(const Eigen::Vector3d& pose,
                                       const std::vector<Eigen::Vector2d>& features) {
   std::vector<Observation> readings;
   for (const Eigen::Vector2d& feature : features) {
-    readings.push_back({0, observeFeature(kSensor, pose, feature), kR});
+    readings.push_back({0, observeFeature(kSensor, pose, feature), kSightingNoise});
   }
   return readings;
 }
@@ -72,7 +73,8 @@ TEST(Association, NoFeatureIsPairedTwice) {
 TEST(Association, BetweenTheGatesNothingIsDecided) {
   const Mapped map({{3, 0}}, 0.0);
   for (const Association association : {Association::nearest, Association::joint}) {
-    const double sigma = std::sqrt(kR(0, 0) + kR(0, 0) + 1e-4);  // of the innovation's range
+    const double sigma =
+        std::sqrt(kSightingNoise(0, 0) + kSightingNoise(0, 0) + 1e-4);  // of the innovation's range
     const auto feature = [&](double sigmas) {
       std::vector<Observation> readings = readingsFrom({0.01, 0, 0}, {{3, 0}});
       readings[0].z[0] += sigmas * sigma;
@@ -149,7 +151,8 @@ struct BruteForce {
     Eigen::MatrixXd R = Eigen::MatrixXd::Zero(innovation.size(), innovation.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
       H.middleRows(static_cast<Eigen::Index>(2 * k), 2) = rows[k];
-      R.block<2, 2>(static_cast<Eigen::Index>(2 * k), static_cast<Eigen::Index>(2 * k)) = kR;
+      R.block<2, 2>(static_cast<Eigen::Index>(2 * k), static_cast<Eigen::Index>(2 * k)) =
+          kSightingNoise;
     }
     const Eigen::MatrixXd P = state.P.selfadjointView<Eigen::Lower>();
     const Eigen::MatrixXd S = H * P * H.transpose() + R;
@@ -167,7 +170,7 @@ TEST(Association, JointAgreesWithBruteForce) {
     const Mapped map(features, 0.06);
     std::vector<Observation> readings =
         readingsFrom({0.01, 0, 0.06 * random.normal()}, {features[4], features[1], features[2]});
-    readings.push_back({0, {3.0, random.uniform(-0.2, 0.2)}, kR});  // spurious
+    readings.push_back({0, {3.0, random.uniform(-0.2, 0.2)}, kSightingNoise});  // spurious
     BruteForce all{.state = map.filter.state(), .readings = readings};
     all.search({});
     const Matches found = match(map, Association::joint, readings);
@@ -249,7 +252,7 @@ TEST(MapBuilder, DuplicatesAreTakenOutTheYoungerOne) {
   FeatureLifeOptions life{.confirm_after = 1, .separation = 0.5};
   Watcher watcher(life);
   for (int k = 0; k < 3; ++k) watcher.look({{3, 0}});
-  watcher.filter.initialise({2, observeFeature(kSensor, {0, 0, 0}, {3.0, 0.3}), kR});
+  watcher.filter.initialise({2, observeFeature(kSensor, {0, 0, 0}, {3.0, 0.3}), kSightingNoise});
   watcher.look({{3, 0}});
   watcher.look({{3, 0}});
   EXPECT_EQ(watcher.filter.state().ids, (std::vector<FeatureId>{1}));
@@ -274,12 +277,12 @@ TEST(MapBuilder, StaysAliveUnderTenThousandSpuriousReturns) {
   }
 }
 
-struct Outcome {
+struct MappedRun {
   std::uint64_t mispaired;
   double path;
 };
 
-Outcome driveAmbiguousWorld(Association association) {
+MappedRun driveAmbiguousWorld(Association association) {
   AmbiguousWorldOptions world;
   world.spacing = 0.5;
   RecordingRunOptions options;
@@ -294,8 +297,8 @@ Outcome driveAmbiguousWorld(Association association) {
 }
 
 TEST(Association, JointBeatsNearestInAnAmbiguousWorld) {
-  const Outcome nearest = driveAmbiguousWorld(Association::nearest);
-  const Outcome joint = driveAmbiguousWorld(Association::joint);
+  const MappedRun nearest = driveAmbiguousWorld(Association::nearest);
+  const MappedRun joint = driveAmbiguousWorld(Association::joint);
   EXPECT_LT(joint.mispaired, nearest.mispaired);
   EXPECT_LT(joint.path, nearest.path);
 }

@@ -19,7 +19,7 @@ using testing::relativeDifference;
 
 constexpr AckermannGeometry kTruck{.wheelbase = 2.83, .encoder_left = 0.76};
 
-Eigen::VectorXd minus(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+Eigen::VectorXd reckoningMinus(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   Eigen::VectorXd difference = a - b;
   if (a.size() == 3) difference[2] = wrapAngle(difference[2]);
   return difference;
@@ -46,7 +46,7 @@ TEST(Ackermann, JacobianIsTheDerivative) {
     EXPECT_TRUE(ackermannVelocity(kTruck, control, &J).allFinite());
     const Eigen::MatrixXd numeric = centralDifferences(
         [](const Eigen::VectorXd& u) -> Eigen::VectorXd { return ackermannVelocity(kTruck, u); },
-        control, minus);
+        control, reckoningMinus);
     EXPECT_LT(relativeDifference(J, numeric), kTolerance) << control.transpose();
     J(0, 0) = -J(0, 0);
     EXPECT_GT(relativeDifference(J, numeric), kTolerance) << "sign flipped";
@@ -108,8 +108,8 @@ TEST(DeadReckoning, JacobianOfTheWholeCompositionIsTheDerivative) {
   };
   const Eigen::Vector3d sigma(0.2, 0.0, 0.03);
   const Motion motion = DeadReckoning(recording, sigma).between(0ns, kEntries * 400ms);
-  EXPECT_LT(minus(motion.increment, chain(controls)).norm(), 1e-12);
-  const Eigen::MatrixXd J = centralDifferences(chain, controls, minus);
+  EXPECT_LT(reckoningMinus(motion.increment, chain(controls)).norm(), 1e-12);
+  const Eigen::MatrixXd J = centralDifferences(chain, controls, reckoningMinus);
   Eigen::VectorXd variance(2 * kEntries);
   for (int k = 0; k < kEntries; ++k) {
     variance.segment<2>(2 * k) << 0.2 * 0.2 / kPeriod, 0.03 * 0.03 / kPeriod;
@@ -132,7 +132,7 @@ TEST(DeadReckoning, CompositionHasTheJacobiansOfMotion) {
         [](const Eigen::VectorXd& a) -> Eigen::VectorXd {
           return movePose(a.head<3>(), a.tail<3>());
         },
-        both, minus);
+        both, reckoningMinus);
     const Eigen::MatrixXd expected = J.leftCols<3>() * A * J.leftCols<3>().transpose() +
                                      J.rightCols<3>() * B * J.rightCols<3>().transpose();
     EXPECT_LT(relativeDifference(result.M, expected), 1e-8);

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoReturn = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Post {
@@ -33,7 +33,7 @@ struct Post {
 double cast(const Eigen::Vector3d& laser, double angle, const std::vector<Post>& posts,
             double wall) {
   const Eigen::Vector2d ray(std::cos(laser[2] + angle), std::sin(laser[2] + angle));
-  double nearest = ray.x() > 1e-6 ? (wall - laser[0]) / ray.x() : kNan;
+  double nearest = ray.x() > 1e-6 ? (wall - laser[0]) / ray.x() : kNoReturn;
   for (const Post& post : posts) {
     const Eigen::Vector2d d = post.centre - laser.head<2>();
     const double along = d.dot(ray);
@@ -60,7 +60,7 @@ LaserScan sweep(Poses poses, const std::vector<Post>& posts, double wall, double
   return scan;
 }
 
-LaserScan still(const std::vector<Post>& posts, double wall = kNan, double sigma = 0.0) {
+LaserScan still(const std::vector<Post>& posts, double wall = kNoReturn, double sigma = 0.0) {
   RandomSource random(3);
   return sweep([](double) { return Eigen::Vector3d(0, 0, 0); }, posts, wall, sigma, random);
 }
@@ -98,7 +98,7 @@ TEST(LaserPoints, TheirCovarianceIsHonest) {
     const Post post{{distance * std::cos(angle), distance * std::sin(angle)},
                     random.uniform(0.08, 0.15)};
     const LaserScan scan =
-        sweep([](double) { return Eigen::Vector3d(0, 0, 0); }, {post}, kNan, 0.02, random);
+        sweep([](double) { return Eigen::Vector3d(0, 0, 0); }, {post}, kNoReturn, 0.02, random);
     const auto points = findPoints(scan, {.range_sigma = 0.02, .shape_sigma = 0.0});
     ASSERT_EQ(points.size(), 1U);
     const Eigen::Vector2d error = points[0].z - Eigen::Vector2d(distance, angle);
@@ -130,7 +130,7 @@ TEST(LaserPoints, LooksPastOnlyWhatIsNotThere) {
   EXPECT_FALSE(seesPast(scan, options, 9.2, 0.0 + 0.3, 0.8, 0.01)) << "behind the wall";
   EXPECT_FALSE(seesPast(scan, options, 4.0, 1.58, 0.8, 0.01)) << "out of the scan";
   EXPECT_FALSE(seesPast(scan, options, 4.0, 0.1, 0.8, 0.2)) << "not sure where to look";
-  EXPECT_FALSE(seesPast(scan, options, kNan, kNan, 0.8, 0.2));
+  EXPECT_FALSE(seesPast(scan, options, kNoReturn, kNoReturn, 0.8, 0.2));
 }
 
 TEST(LaserFrontEnd, RespectsTheTimeWithinTheSweep) {
@@ -141,7 +141,7 @@ TEST(LaserFrontEnd, RespectsTheTimeWithinTheSweep) {
   const auto moving = [&](double share) {
     return movePose(arcIncrement(velocity, 0.1 * share), mount.pose_robot);
   };
-  const LaserScan scan = sweep(moving, posts, kNan, 0.0, random);
+  const LaserScan scan = sweep(moving, posts, kNoReturn, 0.0, random);
   const auto worst = [&](const Eigen::Vector2d& believed) {
     double error = 0.0;
     const auto observations = LaserFrontEnd(mount, {}).observations(scan, believed);
