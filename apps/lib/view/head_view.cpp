@@ -117,17 +117,19 @@ const std::optional<tracking::MapPlace>& HeadView::place() const {
   return robot_ ? robot_->place() : origin_;
 }
 
-std::string HeadView::status() const {
-  std::string text = setup_.calibrated() ? "" : "uncalibrated · ";
-  text += tracker_.status(std::max(eyes_[0].time, eyes_[1].time));
-  if (robot_) text += " · " + robot_->status();
+std::vector<std::string> HeadView::statusLines() const {
+  std::vector<std::string> lines;
+  lines.push_back((setup_.calibrated() ? "" : "uncalibrated · ") +
+                  tracker_.status(std::max(eyes_[0].time, eyes_[1].time)));
+  if (robot_) lines.push_back(robot_->status());
   const tracking::OverlayError& error = eyes_[0].own_error;
   if (error.px > 0.0) {
-    char own[64];
-    std::snprintf(own, sizeof own, " · overlay ±%.2f px ±%.1f mm", error.px, 1e3 * error.floor_m);
-    text += own;
+    char own[96];
+    std::snprintf(own, sizeof own, "overlay by tracker and registration alone: ±%.2f px ±%.1f mm",
+                  error.px, 1e3 * error.floor_m);
+    lines.emplace_back(own);
   }
-  return text;
+  return lines;
 }
 
 std::vector<std::string> HeadView::problems() const {

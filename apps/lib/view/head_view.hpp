@@ -44,8 +44,9 @@ class HeadView {
   [[nodiscard]] int robotPictures() const { return robot_ ? robot_->pictures() : 0; }
   [[nodiscard]] const tracking::Rig& rig() const { return rig_; }  ///< of two eyes
 
-  /// "tracking: 7 of 8 tags, residual 0.08 px, head ±0.6 mm ±0.02° · overlay ±0.3 px ±1.2 mm".
-  [[nodiscard]] std::string status() const;
+  /// "tracking: 7 of 8 tags, residual 0.08 px, head ±0.6 mm ±0.02°", then the robot's place and
+  /// "overlay by tracker and registration alone: ±0.3 px ±1.2 mm".
+  [[nodiscard]] std::vector<std::string> statusLines() const;
   [[nodiscard]] std::vector<std::string> problems() const;
 
  private:

@@ -119,7 +119,7 @@ bool Hmd::State::next() {
 }
 
 std::vector<std::string> Hmd::State::lines() const {
-  std::vector<std::string> lines{head.status()};
+  std::vector<std::string> lines = head.statusLines();
   if (latency_ms) {
     char text[64];
     std::snprintf(text, sizeof text, "camera to picture %.0f ms", *latency_ms);
@@ -127,7 +127,7 @@ std::vector<std::string> Hmd::State::lines() const {
   }
   for (const std::string& problem : problems) lines.push_back(problem);
   if (head.rig().cameras.size() > setup.source->cameras()) {
-    lines.emplace_back("one camera: this eye's picture comes from it, the other has none");
+    lines.emplace_back("one camera: its picture goes to the left eye, the overlay to both");
   }
   return lines;
 }
@@ -192,7 +192,11 @@ double Hmd::progress() const {
   return state_->truth ? state_->layer.progress(*state_->truth) : -1.0;
 }
 std::string Hmd::status() const {
-  return state_->head.status();
+  std::string all;
+  for (const std::string& line : state_->head.statusLines()) {
+    all += (all.empty() ? "" : " · ") + line;
+  }
+  return all;
 }
 const std::vector<std::string>& Hmd::notes() const {
   return state_->setup.notes;

@@ -58,7 +58,8 @@ HmdFrame Hmd::State::frameReport() const {
 void Hmd::State::finish() {
   if (!ever_shown && !setup.source->live() && (setup.lab == nullptr || frame_count > 0)) {
     throw std::runtime_error(options.view.camera + ": the map was never found in " +
-                             std::to_string(frame_count) + " frames (" + head.status() + ")");
+                             std::to_string(frame_count) + " frames (" +
+                             head.statusLines().front() + ")");
   }
   if (output) output->finish();
   if (!options.view.picture.empty()) writePicture(options.view.picture, picture);
