@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
 #ifdef SLAMSCOPE_VIEW
   addDemo(program);
   addMonitor(program);
+  addHmd(program);
 #endif
   addSimulate(program);
   addSlam(program);
@@ -80,6 +81,7 @@ int run(int argc, char** argv) {
 #ifdef SLAMSCOPE_VIEW
   addCalibrate(program);
   addDevices(program);
+  addDisplays(program);
 #endif
   try {
     program.parse(argc, argv);

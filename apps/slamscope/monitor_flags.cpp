@@ -8,6 +8,9 @@
 namespace slamscope::apps {
 namespace {
 
+constexpr const char* kCameraGroup = "Camera and registration";
+constexpr const char* kOutputGroup = "Output";
+
 slam::Axis axisFromName(const std::string& name) {
   if (name == "eigenvalue") return slam::Axis::eigenvalue;
   if (name == "log") return slam::Axis::log;
@@ -15,7 +18,7 @@ slam::Axis axisFromName(const std::string& name) {
 }
 
 void addCameraFlags(CLI::App& verb, MonitorFlags& flags) {
-  const std::string group = "Camera and registration";
+  const std::string group = kCameraGroup;
   MonitorOptions& rest = flags.rest;
   verb.add_option(
           "--camera", rest.camera,
@@ -34,27 +37,6 @@ void addCameraFlags(CLI::App& verb, MonitorFlags& flags) {
                   "once: from the first frames, then stored; continuous: a camera that moves")
       ->check(CLI::IsMember({"once", "continuous"}))
       ->group(group);
-  verb.add_option("--fps", rest.fps, "frame rate of pictures without stamps, and of a lab")
-      ->check(CLI::Range(0.1, 1000.0))
-      ->group(group);
-  verb.add_option(
-          "--capture-size",
-          [&rest](const CLI::results_t& words) {
-            const char separator = 'x';
-            const auto at = words.front().find(separator);
-            if (at == std::string::npos) return false;
-            return CLI::detail::lexical_cast(words.front().substr(0, at), rest.v4l2.width) &&
-                   CLI::detail::lexical_cast(words.front().substr(at + 1), rest.v4l2.height);
-          },
-          "WxH asked of a device")
-      ->group(group);
-  verb.add_option("--capture-rate", rest.v4l2.fps, "frames a second asked of a device")
-      ->group(group);
-  verb.add_option("--pixel-format", rest.v4l2.pixel_format, "YUYV, MJPG or GREY, of a device")
-      ->check(CLI::IsMember({"YUYV", "MJPG", "GREY"}))
-      ->group(group);
-  verb.add_option("--focus", flags.focus, "fixed focus of a device, driver's units")->group(group);
-  verb.add_option("--exposure-ms", flags.exposure_ms, "fixed exposure of a device")->group(group);
 }
 
 void addSlamFlags(CLI::App& verb, MonitorFlags& flags) {
@@ -118,17 +100,12 @@ void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
 }
 
 void addOutputFlags(CLI::App& verb, MonitorFlags& flags) {
-  const std::string group = "Output";
+  const std::string group = kOutputGroup;
   MonitorOptions& rest = flags.rest;
   verb.add_option("--output", rest.output, "out.mp4 or out-%05d.png; without any output: a window")
       ->group(group);
   verb.add_option("--picture", rest.picture, "one PNG or JPEG: the last frame")->group(group);
-  verb.add_option("--compare", rest.compare,
-                  "one PNG or JPEG: start and end of the run beside each other")
-      ->group(group);
   verb.add_option("--report", rest.report, "JSON: registration, errors and pixels of each frame")
-      ->group(group);
-  verb.add_option("--lab-truth", rest.lab_truth, "JSON: the lab's camera, poses and features")
       ->group(group);
   verb.add_option("--lab-seed", rest.lab_seed, "of the lab's floor and noise")->group(group);
   verb.add_option("--frames", rest.frames, "stop after so many")
@@ -143,6 +120,31 @@ void addOutputFlags(CLI::App& verb, MonitorFlags& flags) {
 }
 
 }  // namespace
+
+void addCaptureFlags(CLI::App& verb, MonitorFlags& flags, const std::string& group) {
+  MonitorOptions& rest = flags.rest;
+  verb.add_option("--fps", rest.fps, "frame rate of pictures without stamps, and of a lab")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->group(group);
+  verb.add_option(
+          "--capture-size",
+          [&rest](const CLI::results_t& words) {
+            const char separator = 'x';
+            const auto at = words.front().find(separator);
+            if (at == std::string::npos) return false;
+            return CLI::detail::lexical_cast(words.front().substr(0, at), rest.v4l2.width) &&
+                   CLI::detail::lexical_cast(words.front().substr(at + 1), rest.v4l2.height);
+          },
+          "WxH asked of a device")
+      ->group(group);
+  verb.add_option("--capture-rate", rest.v4l2.fps, "frames a second asked of a device")
+      ->group(group);
+  verb.add_option("--pixel-format", rest.v4l2.pixel_format, "YUYV, MJPG or GREY, of a device")
+      ->check(CLI::IsMember({"YUYV", "MJPG", "GREY"}))
+      ->group(group);
+  verb.add_option("--focus", flags.focus, "fixed focus of a device, driver's units")->group(group);
+  verb.add_option("--exposure-ms", flags.exposure_ms, "fixed exposure of a device")->group(group);
+}
 
 MonitorOptions MonitorFlags::options() const {
   MonitorOptions options = rest;
@@ -180,6 +182,17 @@ MonitorOptions MonitorFlags::options() const {
 
 void addMonitorFlags(CLI::App& verb, MonitorFlags& flags) {
   addCameraFlags(verb, flags);
+  addCaptureFlags(verb, flags, kCameraGroup);
+  addViewFlags(verb, flags);
+  MonitorOptions& rest = flags.rest;
+  verb.add_option("--compare", rest.compare,
+                  "one PNG or JPEG: start and end of the run beside each other")
+      ->group(kOutputGroup);
+  verb.add_option("--lab-truth", rest.lab_truth, "JSON: the lab's camera, poses and features")
+      ->group(kOutputGroup);
+}
+
+void addViewFlags(CLI::App& verb, MonitorFlags& flags) {
   addSlamFlags(verb, flags);
   addDrawingFlags(verb, flags);
   addOutputFlags(verb, flags);

@@ -31,6 +31,11 @@ struct MonitorFlags {
 /// Camera, registration, SLAM source, what is drawn, outputs.
 void addMonitorFlags(CLI::App& verb, MonitorFlags& flags);
 
+/// What is asked of a camera as a device or film: frame rate, size, focus.
+void addCaptureFlags(CLI::App& verb, MonitorFlags& flags, const std::string& group);
+/// SLAM source, what is drawn, outputs: what any viewer has.
+void addViewFlags(CLI::App& verb, MonitorFlags& flags);
+
 /// Runs the view to its end: in a window where `window` says so, else into the outputs.
 void runMonitor(const MonitorOptions& options);
 

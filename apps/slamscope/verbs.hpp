@@ -16,5 +16,7 @@ void addMonitor(CLI::App& program);
 void addDemo(CLI::App& program);
 void addCalibrate(CLI::App& program);
 void addDevices(CLI::App& program);
+void addHmd(CLI::App& program);
+void addDisplays(CLI::App& program);
 
 }  // namespace slamscope::apps

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/frame.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "engine/gpu/submission.hpp"
 #include "engine/gpu/timestamps.hpp"
+#include "engine/render/lens_pass.hpp"
 #include "engine/render/renderer.hpp"
 
 namespace slamscope::engine {
@@ -35,12 +38,14 @@ Size checkedSize(const gpu::Core& core, int width, int height, int views) {
 }  // namespace
 
 struct Frame::Parts {
-  Parts(const gpu::Core& core, const Size& size)
-      : colour(core, {.format = vk::Format::eR8G8B8A8Unorm,
-                      .extent = size.extent,
-                      .layers = size.views,
-                      .usage = vk::ImageUsageFlagBits::eColorAttachment |
-                               vk::ImageUsageFlagBits::eTransferSrc}),
+  Parts(const gpu::Core& the_core, const Size& size)
+      : core(the_core),
+        colour(core,
+               {.format = vk::Format::eR8G8B8A8Unorm,
+                .extent = size.extent,
+                .layers = size.views,
+                .usage = vk::ImageUsageFlagBits::eColorAttachment |
+                         vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eSampled}),
         depth(core, {.format = vk::Format::eD32Sfloat,
                      .extent = size.extent,
                      .layers = size.views,
@@ -49,8 +54,10 @@ struct Frame::Parts {
         timestamps(core),
         submission(core) {}
 
+  const gpu::Core& core;
   gpu::DeviceImage colour, depth;
   Renderer renderer;
+  std::optional<LensPass> lens;
   gpu::Timestamps timestamps;
   FrameStats stats;
   gpu::Submission submission;  // destroyed first: waits for the device
@@ -59,6 +66,18 @@ struct Frame::Parts {
 Frame::Frame(const gpu::Core& core, int width, int height, int views)
     : parts_(std::make_unique<Parts>(core, checkedSize(core, width, height, views))) {}
 Frame::~Frame() = default;
+
+void Frame::wear(std::span<const Lens> lenses) {
+  if (!lenses.empty() && lenses.size() != parts_->colour.layers()) {
+    throw std::invalid_argument("this frame needs " + std::to_string(parts_->colour.layers()) +
+                                " lenses, not " + std::to_string(lenses.size()));
+  }
+  wait();
+  const bool plain = std::ranges::all_of(lenses, [](const Lens& lens) { return lens.plain(); });
+  parts_->lens.reset();
+  if (plain) return;
+  parts_->lens.emplace(parts_->core, parts_->colour).wear(lenses);
+}
 
 const vk::raii::CommandBuffer& Frame::record(std::span<const View> views, const Scene& scene,
                                              const RenderOptions& options) {
@@ -81,7 +100,11 @@ const vk::raii::CommandBuffer& Frame::record(std::span<const View> views, const 
   parts_->renderer.record(
       commands, {.colour = parts_->colour.view(), .depth = parts_->depth.view(), .extent = extent},
       stats);
-  barrier(commands, parts_->colour, gpu::drawnInto(), gpu::copySource());
+  if (parts_->lens) {
+    parts_->lens->record(commands);
+  } else {
+    barrier(commands, parts_->colour, gpu::drawnInto(), gpu::copySource());
+  }
   parts_->timestamps.end(commands);
   stats.cpu_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -99,7 +122,7 @@ void Frame::wait() {
 }
 
 const gpu::DeviceImage& Frame::colour() const {
-  return parts_->colour;
+  return parts_->lens ? parts_->lens->shown() : parts_->colour;
 }
 
 FrameStats Frame::stats() const {

@@ -8,6 +8,7 @@
 #include "engine/gpu/core.hpp"
 #include "engine/render/options.hpp"
 #include "engine/scene/glyphs.hpp"
+#include "engine/scene/lens.hpp"
 #include "engine/scene/view.hpp"
 
 namespace slamscope::engine {
@@ -30,6 +31,11 @@ class Frame {
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
 
+  /// Lenses that the pictures are seen through from now on, one a view; none, or plain ones: the
+  /// pictures as they are. Waits for the frame before. Throws std::invalid_argument for another
+  /// number.
+  void wear(std::span<const Lens> lenses);
+
   /// Uploads and records a whole frame and leaves the command buffer open. Arguments as in
   /// Offscreen::draw(), which also tells what is thrown.
   const vk::raii::CommandBuffer& record(std::span<const View> views, const Scene& scene,
@@ -40,7 +46,7 @@ class Frame {
   /// Until the device is done.
   void wait();
 
-  /// RGBA8 UNORM, one layer a view.
+  /// What is to be shown: RGBA8 UNORM, one layer a view.
   [[nodiscard]] const gpu::DeviceImage& colour() const;
   /// Of the frame last waited for; cpu_ms is that of record() alone.
   [[nodiscard]] FrameStats stats() const;

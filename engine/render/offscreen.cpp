@@ -25,6 +25,10 @@ Offscreen::Offscreen(std::shared_ptr<Gpu> gpu, int width, int height, int views)
     : parts_(std::make_unique<Parts>(std::move(gpu), width, height, views)) {}
 Offscreen::~Offscreen() = default;
 
+void Offscreen::wear(std::span<const Lens> lenses) {
+  parts_->frame.wear(lenses);
+}
+
 std::vector<Image> Offscreen::draw(std::span<const View> views, const Scene& scene,
                                    const RenderOptions& options) {
   std::vector<Image> pictures;

@@ -8,6 +8,7 @@
 #include "engine/gpu/gpu.hpp"
 #include "engine/render/options.hpp"
 #include "engine/scene/glyphs.hpp"
+#include "engine/scene/lens.hpp"
 #include "engine/scene/view.hpp"
 
 namespace slamscope::engine {
@@ -23,6 +24,11 @@ class Offscreen {
   ~Offscreen();
   Offscreen(const Offscreen&) = delete;
   Offscreen& operator=(const Offscreen&) = delete;
+
+  /// Lenses that the pictures are seen through from now on, one a view: the display's
+  /// pre-distortion, the last thing done. Plain ones change no byte. Throws std::invalid_argument
+  /// for another number than that of the views (or none).
+  void wear(std::span<const Lens> lenses);
 
   /// One picture a view, opaque. Throws std::invalid_argument where the number of views or a
   /// camera's size is not that of the constructor, or a background's size does not fit.

@@ -20,6 +20,8 @@ namespace {
 #include "ellipsoids_frag.h"
 #include "ellipsoids_vert.h"
 #include "interop_echo_comp.h"
+#include "lens_frag.h"
+#include "lens_vert.h"
 #include "lines_frag.h"
 #include "lines_vert.h"
 #include "rects_frag.h"
@@ -36,6 +38,8 @@ const std::array kShaders = {ShaderCode{"arrows_frag", arrows_frag},
                              ShaderCode{"ellipsoids_frag", ellipsoids_frag},
                              ShaderCode{"ellipsoids_vert", ellipsoids_vert},
                              ShaderCode{"interop_echo_comp", interop_echo_comp},
+                             ShaderCode{"lens_frag", lens_frag},
+                             ShaderCode{"lens_vert", lens_vert},
                              ShaderCode{"lines_frag", lines_frag},
                              ShaderCode{"lines_vert", lines_vert},
                              ShaderCode{"rects_frag", rects_frag},

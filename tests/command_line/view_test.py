@@ -152,5 +152,80 @@ class Films(program.InAFolder):
         self.assertEqual([f.name for f in self.folder.iterdir()], ["o.mp4"])
 
 
+class Hmd(program.InAFolder):
+    """Two eyes on a head that walks around the lab's robot."""
+
+    def test_two_seconds_of_the_walk_stand_where_they_belong(self):
+        status, _, errors = self.run_here("hmd", "--fps", 10, "--frames", 20, "--slam-rate", 4, "--output", "o.mp4",
+                                          "--picture", "p.png", "--report", "r.json",
+                                          "--latency", "l.csv", "--validation", env=NO_DISPLAY)
+        self.assertEqual(status, 0, errors)
+        report = self.load("r.json")
+        frames = report["frames"]
+        self.assertEqual(len(frames), 20)
+        self.assertEqual({f["head"]["state"] for f in frames}, {"tracking"})
+        self.assertGreaterEqual(min(f["head"]["tags_used"] for f in frames), 3)
+        self.assertLess(max(f["head"]["residual_px"] for f in frames), 0.3)
+        shown = [f for f in frames if f["drawn"]["features"] > 0]
+        self.assertGreaterEqual(len(shown), 10)
+        self.assertGreater(shown[-1]["drawn"]["ellipsoids"], 0)
+        self.assertLess(shown[-1]["robot"]["position_error_m"], 0.001)
+        for eye in ("left", "right"):
+            self.assertLess(max(f[eye]["position_error_m"] for f in frames[3:]), 0.005)
+            self.assertLess(max(f[eye]["rotation_error_deg"] for f in frames[3:]), 0.05)
+            self.assertLess(max(f[eye]["overlay_error_px"] for f in shown
+                                if f[eye]["overlay_error_px"] is not None), 1.0)
+        self.assertLess(report["summary"]["overlay_error_px"]["p95"], 0.5)
+        # Two eyes: the same feature stands further left in the right one.
+        left, right = ({tip[0]: tip for tip in shown[-1][eye]["tips_px"]} for eye in ("left", "right"))
+        both = left.keys() & right.keys()
+        self.assertTrue(both)
+        self.assertTrue(all(left[k][1] > right[k][1] + 3 for k in both), (left, right))
+        stamps = [line.split(",") for line in (self.folder / "l.csv").read_text().splitlines()]
+        self.assertEqual(stamps[0], ["frame", "mid_exposure_s", "dequeue_s", "pose_s", "present_s"])
+        self.assertEqual(len(stamps), 21)
+        for row in stamps[1:]:
+            self.assertLess(float(row[2]), float(row[3]))
+            self.assertLess(float(row[3]), float(row[4]))
+
+    def test_a_rig_that_is_wrong_shows_in_residual_and_errors(self):
+        camera = ("{{image_width: 640, image_height: 480, camera_name: c, camera_matrix: {{rows: 3, cols: 3, "
+                  "data: [{f}, 0, 320, 0, {f}, 240, 0, 0, 1]}}, distortion_model: plumb_bob, "
+                  "distortion_coefficients: {{rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}}}}").format(f=500)
+        self.write("rig.yaml", "T_right_left: {position_m: [-0.064, 0, 0]}\n"
+                   f"left: {{camera_info: {camera}}}\nright: {{camera_info: {camera}}}\n")
+        status, _, errors = self.run_here("hmd", "--frames", 8, "--rig", "rig.yaml", "--report", "r.json")
+        self.assertEqual(status, 0, errors)
+        report = self.load("r.json")
+        self.assertGreater(report["summary"]["overlay_error_px"]["p95"], 1.0)
+        self.assertTrue(report["frames"][-1]["problems"])
+
+    def test_layouts_have_their_sizes(self):
+        from_png = lambda data: tuple(int.from_bytes(data[at:at + 4], "big") for at in (16, 20))
+        for layout, size in (("half-side-by-side", (320, 240)), ("top-bottom", (320, 480)),
+                             ("anaglyph", (320, 240))):
+            status, _, errors = self.run_here("hmd", "--frames", 2, "--layout", layout, "--size",
+                                              "320x240", "--picture", "p.png", "--swap-eyes")
+            self.assertEqual(status, 0, errors)
+            self.assertEqual(from_png((self.folder / "p.png").read_bytes()), size)
+
+    def test_pictures_without_a_tag(self):
+        for k in range(3):
+            self.write(f"frames/{k}.pgm", PGM)
+        status, _, errors = self.run_here("hmd", "--cameras", "frames", "--output", "out.mp4")
+        self.assertEqual(status, 2)
+        self.assertIn("never found", errors)
+        self.assertIn("one camera", errors)
+        self.assertIn("uncalibrated", errors)
+
+    def test_a_window_without_a_display(self):
+        self.refused("hmd", saying="display", env=NO_DISPLAY)
+        self.refused("hmd", "--display", "1", saying="display", env=NO_DISPLAY)
+        self.refused("displays", saying="display", env=NO_DISPLAY)
+
+    def test_an_unknown_layout(self):
+        self.refused("hmd", "--layout", "cross-eyed", "--picture", "p.png", saying="cross-eyed")
+
+
 if __name__ == "__main__":
     program.main()

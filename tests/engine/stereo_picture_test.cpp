@@ -84,6 +84,84 @@ TEST_F(StereoPicture, EachEyeHasItsOwnBackgroundAndMap) {
   EXPECT_EQ(channel(pictures[1], 50, 60, 1), 200);
 }
 
+std::shared_ptr<Image> noise(unsigned seed) {
+  auto picture = std::make_shared<Image>(Image{320, 240, {}});
+  for (unsigned i = 0; i < 320 * 240 * 4; ++i) {
+    picture->rgba.push_back(static_cast<std::uint8_t>(((i + seed) * 2654435761U) >> 21U));
+  }
+  return picture;
+}
+
+std::array<View, 2> noisyEyes() {
+  View view = lookingAt(kCamera, {0.1, -1.2, 0.9}, {0, 0, 0});
+  view.background.image = noise(1);
+  std::array views = {view, besides(view, 0.064)};
+  views[1].background.image = noise(77);
+  return views;
+}
+
+TEST_F(StereoPicture, PlainLensesChangeNoByteAndOneThatIsNotChangesItsEyeAlone) {
+  Offscreen offscreen(gpu_, 320, 240, 2);
+  const auto views = noisyEyes();
+  const auto bare = offscreen.draw(views, everything(), {});
+  std::array<Lens, 2> lenses;
+  offscreen.wear(lenses);
+  const auto plain = offscreen.draw(views, everything(), {});
+  EXPECT_TRUE(sameBytes(bare[0], plain[0]) && sameBytes(bare[1], plain[1]));
+  lenses[1].k = {0.1, 0, 0};
+  offscreen.wear(lenses);
+  const auto worn = offscreen.draw(views, everything(), {});
+  EXPECT_TRUE(sameBytes(bare[0], worn[0]));
+  EXPECT_FALSE(sameBytes(bare[1], worn[1])) << "twin";
+  offscreen.wear({});
+  EXPECT_TRUE(sameBytes(bare[1], offscreen.draw(views, everything(), {})[1])) << "taken off";
+  EXPECT_THROW(offscreen.wear({lenses.data(), 1}), std::invalid_argument);
+}
+
+/// A channel between pixels; outside black.
+double between(const Image& image, const Eigen::Vector2d& px, int c) {
+  const int u = static_cast<int>(std::floor(px.x())), v = static_cast<int>(std::floor(px.y()));
+  const auto at = [&](int x, int y) {
+    const bool inside = x >= 0 && y >= 0 && x < image.width && y < image.height;
+    return inside ? channel(image, x, y, c) : 0;
+  };
+  const double a = px.x() - u, b = px.y() - v;
+  return (1 - b) * ((1 - a) * at(u, v) + a * at(u + 1, v)) +
+         b * ((1 - a) * at(u, v + 1) + a * at(u + 1, v + 1));
+}
+
+TEST_F(StereoPicture, LensShowsEachColourWhereItsEquationPutsIt) {
+  Offscreen offscreen(gpu_, 320, 240, 2);
+  const auto views = noisyEyes();
+  const auto bare = offscreen.draw(views, everything(), {});
+  std::array<Lens, 2> lenses;
+  lenses[0] = {.centre = {0.53, 0.48}, .k = {0.22, 0.1, 0.02}, .scale = {0.99, 1.0, 1.012}};
+  lenses[1] = {.centre = {0.47, 0.48}, .k = {0.15, 0, 0}, .scale = {0.8, 0.8, 0.8}};
+  offscreen.wear(lenses);
+  const auto worn = offscreen.draw(views, everything(), {});
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const Lens& lens = lenses[eye];
+    const Eigen::Vector2d axis(lens.centre.x() * 320 - 0.5, lens.centre.y() * 240 - 0.5);
+    double worst = 0.0, twin = 0.0;
+    for (int v = 0; v < 240; ++v) {
+      for (int u = 0; u < 320; ++u) {
+        const Eigen::Vector2d off = Eigen::Vector2d(u, v) - axis;
+        const double s = (off / 120).squaredNorm();
+        const double factor = 1 + s * (lens.k[0] + s * (lens.k[1] + s * lens.k[2]));
+        for (int c = 0; c < 3; ++c) {
+          const Eigen::Vector2d from = axis + lens.scale[c] * factor * off;
+          const int found = channel(worn[eye], u, v, c);
+          worst = std::max(worst, std::abs(found - between(bare[eye], from, c)));
+          const Eigen::Vector2d half_off = from.array() + 0.5;
+          twin = std::max(twin, std::abs(found - between(bare[eye], half_off, c)));
+        }
+      }
+    }
+    EXPECT_LT(worst, 3.0) << "of 255";  // the sampler's weights have 8 bits
+    EXPECT_GT(twin, 50.0) << "twin: half a pixel off";
+  }
+}
+
 TEST_F(StereoPicture, RefusesWhatDoesNotFit) {
   Offscreen offscreen(gpu_, 320, 240, 2);
   const View view = lookingAt(kEye, {0, -1, 1}, {0, 0, 0});

@@ -39,42 +39,27 @@ double reachFrom(const Eigen::Vector2d& centre, const Eigen::AlignedBox2d& box) 
 
 /// Puts the scene of the run into the room: the paper's experiment at full size with its loop in
 /// the middle, anything larger scaled to fit.
-void placeMap(CameraSetup& setup, const MonitorOptions& options, const RunTruth& truth) {
+LabPlacement placeMap(tracking::LabOptions& lab, const MonitorOptions& options,
+                      const RunTruth& truth) {
   const Eigen::AlignedBox2d box = extentOf(truth);
   Eigen::Vector2d centre = slam::kLoopCentre;
-  const double given = options.map_scale.value_or(1.0);
-  if (given * reachFrom(centre, box) > kLabHalfSide) centre = box.center();
+  LabPlacement placed{.map_scale = options.map_scale.value_or(1.0), .notes = {}};
+  if (placed.map_scale * reachFrom(centre, box) > kLabHalfSide) centre = box.center();
   const double reach = reachFrom(centre, box);
-  setup.map_scale = given;
   if (!options.map_scale && reach > kLabHalfSide) {
-    setup.map_scale = 1.0 / (std::ceil(10.0 * reach / kLabHalfSide) / 10.0);
+    placed.map_scale = 1.0 / (std::ceil(10.0 * reach / kLabHalfSide) / 10.0);
     char note[120];
     std::snprintf(
         note, sizeof note,
         "the run reaches over %.3g m: the lab shows it at 1:%.3g (--map-scale says otherwise)",
-        2.0 * reach, 1.0 / setup.map_scale);
-    setup.notes.emplace_back(note);
+        2.0 * reach, 1.0 / placed.map_scale);
+    placed.notes.emplace_back(note);
   }
   const Eigen::Rotation2Dd turn(kLabMapTurn);
-  const Eigen::Vector2d origin = -(setup.map_scale * (turn * centre));
-  setup.lab->T_world_map = Eigen::Translation3d(origin.x(), origin.y(), 0.0) *
-                           Eigen::AngleAxisd(kLabMapTurn, Eigen::Vector3d::UnitZ());
-}
-
-void addTruth(CameraSetup& setup, const MonitorOptions& options, const RunTruth& truth) {
-  tracking::LabOptions& lab = *setup.lab;
-  placeMap(setup, options, truth);
-  const double scale = setup.map_scale;
-  for (std::size_t k = 0; k < truth.ids.size(); ++k) {
-    lab.posts.push_back({truth.ids[k], scale * truth.features[k]});
-  }
-  lab.start = truth.start;
-  lab.robot_pose_map = [truth, scale, rate = options.slam_rate](nanoseconds time) {
-    const double since = rate * static_cast<double>((time - truth.start).count());
-    Eigen::Vector3d pose = truth.pose(truth.start + nanoseconds(std::llround(since)));
-    pose.head<2>() *= scale;
-    return pose;
-  };
+  const Eigen::Vector2d origin = -(placed.map_scale * (turn * centre));
+  lab.T_world_map = Eigen::Translation3d(origin.x(), origin.y(), 0.0) *
+                    Eigen::AngleAxisd(kLabMapTurn, Eigen::Vector3d::UnitZ());
+  return placed;
 }
 
 CameraSetup openLab(const MonitorOptions& options, const std::optional<RunTruth>& truth) {
@@ -85,15 +70,9 @@ CameraSetup openLab(const MonitorOptions& options, const std::optional<RunTruth>
   if (options.fps > 0.0) lab.fps = options.fps;
   lab.frames = options.frames;
   lab.seed = options.lab_seed;
-  setup.map_scale = options.map_scale.value_or(1.0);
-  if (truth) {
-    addTruth(setup, options, *truth);
-  } else {
-    setup.notes.emplace_back(
-        "the run carries no truth: the lab shows the floor and the robot's tag at the map's "
-        "origin");
-    lab.T_world_map = Eigen::AngleAxisd(kLabMapTurn, Eigen::Vector3d::UnitZ());
-  }
+  LabPlacement placed = placeInLab(lab, options, truth);
+  setup.map_scale = placed.map_scale;
+  setup.notes = std::move(placed.notes);
   setup.info = lab.camera;
   setup.fps = lab.fps;
   setup.source = std::make_unique<tracking::Lab>(lab);
@@ -198,6 +177,29 @@ void chooseRobot(CameraSetup& setup, const MonitorOptions& options) {
 }
 
 }  // namespace
+
+LabPlacement placeInLab(tracking::LabOptions& lab, const MonitorOptions& options,
+                        const std::optional<RunTruth>& truth) {
+  if (!truth) {
+    lab.T_world_map = Eigen::AngleAxisd(kLabMapTurn, Eigen::Vector3d::UnitZ());
+    return {.map_scale = options.map_scale.value_or(1.0),
+            .notes = {"the run carries no truth: the lab shows the floor and the robot's tag at "
+                      "the map's origin"}};
+  }
+  LabPlacement placed = placeMap(lab, options, *truth);
+  const double scale = placed.map_scale;
+  for (std::size_t k = 0; k < truth->ids.size(); ++k) {
+    lab.posts.push_back({truth->ids[k], scale * truth->features[k]});
+  }
+  lab.start = truth->start;
+  lab.robot_pose_map = [truth = *truth, scale, rate = options.slam_rate](nanoseconds time) {
+    const double since = rate * static_cast<double>((time - truth.start).count());
+    Eigen::Vector3d pose = truth.pose(truth.start + nanoseconds(std::llround(since)));
+    pose.head<2>() *= scale;
+    return pose;
+  };
+  return placed;
+}
 
 CameraSetup openCamera(const MonitorOptions& options, const std::optional<RunTruth>& truth) {
   CameraSetup setup = options.camera == "lab" ? openLab(options, truth) : openRealCamera(options);

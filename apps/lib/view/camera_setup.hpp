@@ -27,6 +27,16 @@ struct CameraSetup {
   std::vector<std::string> notes;  ///< one line each, for people
 };
 
+/// How a run was put into a lab.
+struct LabPlacement {
+  double map_scale = 1.0;
+  std::vector<std::string> notes;  ///< one line each, for people
+};
+/// Fills in the lab's posts, the robot's motion, the start and T_world_map. Without truth: the
+/// floor alone.
+[[nodiscard]] LabPlacement placeInLab(tracking::LabOptions& lab, const MonitorOptions& options,
+                                      const std::optional<RunTruth>& truth);
+
 /// Opens what the options name. `truth`: of the run to be shown, for the lab. Throws
 /// std::runtime_error, one line, where it can't be had.
 [[nodiscard]] CameraSetup openCamera(const MonitorOptions& options,

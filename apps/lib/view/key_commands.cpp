@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "apps/lib/view/scene_builder.hpp"
+
 namespace slamscope::apps {
 
 void KeyCommands::nextMode() {

@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "apps/lib/view/monitor.hpp"
+#include "apps/lib/view/viewer.hpp"
 
 namespace slamscope::apps {
 
 /// What the keys of a viewer do. Knows nothing of windows.
 class KeyCommands {
  public:
-  explicit KeyCommands(Monitor::Choices& choices) : choices_(choices) {}
+  explicit KeyCommands(Viewer::Choices& choices) : choices_(choices) {}
 
   /// One character as typed. Unknown keys do nothing.
   void press(char32_t key);
@@ -33,7 +33,7 @@ class KeyCommands {
   void nextAxis();
   void nextFade();
 
-  Monitor::Choices& choices_;
+  Viewer::Choices& choices_;
   bool paused_ = false;
   bool quit_ = false;
   bool step_ = false;

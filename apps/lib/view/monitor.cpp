@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/lib/view/monitor.hpp"
 
-#include <algorithm>
-
 #include "apps/lib/view/monitor_state.hpp"
 
 namespace slamscope::apps {
@@ -30,7 +28,7 @@ Monitor::Choices& Monitor::choices() {
 }
 
 bool Monitor::paced() const {
-  return !state_->setup.source->live() && (state_->options.window || state_->feed->live());
+  return !state_->setup.source->live() && (state_->options.window || state_->layer.feed().live());
 }
 double Monitor::secondsShown() const {
   return state_->first_time ? seconds(state_->frame_time - *state_->first_time) : 0.0;
@@ -50,8 +48,7 @@ double Monitor::progress() const {
     return static_cast<double>(state.frame_count) / static_cast<double>(*count);
   }
   if (!state.truth) return -1.0;
-  return seconds(state.run_time - state.truth->start) /
-         std::max(seconds(state.truth->end - state.truth->start), 1e-9);
+  return state.layer.progress(*state.truth);
 }
 std::string Monitor::status() const {
   return state_->registration.status();

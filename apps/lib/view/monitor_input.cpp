@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What the monitor takes in: frames, the pose of the camera, the filter's records.
-#include <cmath>
-#include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/lib/view/monitor_state.hpp"
 #include "engine/window/window.hpp"
 
 namespace slamscope::apps {
 namespace {
-
-std::optional<RunTruth> truthFor(const MonitorOptions& options) {
-  if (options.camera != "lab" || options.slam == "-" || options.slam.starts_with("tcp://")) {
-    return std::nullopt;
-  }
-  if (options.slam == "simulate") return truthOfSimulation(options.simulation);
-  return truthOfRun(options.slam);
-}
 
 tracking::TagDetectorOptions detectorOptions(const CameraSetup& setup) {
   const auto& registration = setup.registration;
@@ -34,8 +25,8 @@ Monitor::State::State(const MonitorOptions& request)
     : options(request),
       truth(truthFor(request)),
       setup(openCamera(request, truth)),
-      feed(openSlamFeed(request.slam, request.simulation)),
-      slam(*feed, request.cluster_cut),
+      choices(choicesOf(request)),
+      layer(options, choices),
       camera(makeOutputCamera(setup.info, request.width, request.height)),
       detector(detectorOptions(setup)),
       registration(setup.registration, tracking::CameraModel(setup.info)),
@@ -46,14 +37,6 @@ Monitor::State::State(const MonitorOptions& request)
           .instance_extensions =
               request.window ? engine::windowInstanceExtensions() : std::vector<std::string>{}})),
       offscreen(gpu, camera.pinhole.width, camera.pinhole.height) {
-  choices = {.mode = request.mode,
-             .axis = request.axis,
-             .covariance_rings = request.covariance_rings,
-             .labels = request.labels,
-             .legend = request.legend,
-             .opacity = request.opacity,
-             .message = {}};
-  if (request.audit) audit.emplace(*feed, request.audit_options);
   if (!request.output.empty()) output = openPictureOutput(request.output, setup.fps);
   if (!request.lab_truth.empty()) {
     if (!setup.lab) throw std::runtime_error("--lab-truth: only the lab knows its truth");
@@ -65,7 +48,7 @@ Monitor::State::State(const MonitorOptions& request)
 
 bool Monitor::State::runIsOver() const {
   // A lab has no end of its own; a camera or a film is shown to its end.
-  return setup.lab && feed->ended() && (registered() || slam.newest() == nullptr);
+  return setup.lab && layer.feed().ended() && (registered() || layer.newest() == nullptr);
 }
 
 bool Monitor::State::next() {
@@ -77,46 +60,21 @@ bool Monitor::State::next() {
   report.addStage("frame", watch.lap());
   if (!first_time) {
     first_time = frame->time;
-    if (const auto start = feed->start()) {
-      clock =
-          RunClock({.run_start = *start,
-                    .first_frame = frame->time,
-                    .frames_stamped = setup.source->stamped(),
-                    .rate = options.slam_rate,
-                    .offset = std::chrono::nanoseconds(std::llround(1e9 * options.time_offset))});
-      if (!clock.sameClock()) {
-        char note[96];
-        std::snprintf(note, sizeof note, "the first frame is laid on the run's start, t = %.3f s",
-                      seconds(*start));
-        setup.notes.emplace_back(note);
-      }
+    if (auto note = layer.begin(frame->time, setup.source->stamped())) {
+      setup.notes.push_back(std::move(*note));
     }
   }
   if (frame_count > 0) frame_step = frame->time - frame_time;
   frame_time = frame->time;
-  run_time = clock.runTime(frame_time);
   ++frame_count;
   detect(*frame);
   report.addStage("detect", watch.lap());
-  if (!audit || !feed->live() || !audit->full()) slam.advanceTo(run_time);
+  layer.advance(frame_time);
   report.addStage("slam", watch.lap());
-  judge();
+  layer.judge();
   report.addStage("audit", watch.lap());
   picture.view.background.image = toImage(*frame);
   return true;
-}
-
-void Monitor::State::judge() {
-  if (!audit) return;
-  // A film shows each alarm at its record, however long that takes; before somebody's eyes the
-  // picture goes on.
-  const bool nobody_waits = !options.window && !feed->live();
-  if (nobody_waits) {
-    audit->settle();
-  } else {
-    audit->advance();
-  }
-  alarms = AlarmMarks(audit->newest());
 }
 
 void Monitor::State::detect(const tracking::Frame& frame) {

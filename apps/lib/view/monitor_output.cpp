@@ -33,7 +33,7 @@ void Monitor::State::compare() {
   // Nobody looks at what lies between: the lab can go straight to the end.
   const bool only_compare = !output && options.report.empty() && !options.window;
   if (!only_compare || !setup.lab || !truth) return;
-  const double left = seconds(truth->end - run_time) / options.slam_rate;
+  const double left = seconds(truth->end - layer.runTime()) / options.slam_rate;
   const double count = std::floor(left * setup.lab->fps) - 1.0;
   if (count < 1.0) return;
   frames.skip(static_cast<std::uint64_t>(count));
@@ -48,10 +48,10 @@ FrameReport Monitor::State::frameReport() const {
                     .slam_error_m = {},
                     .tips = {},
                     .judgement = {}};
-  if (audit) frame.judgement = audit->newest();
-  if (slam.newest()) frame.snapshot_time_s = seconds(slam.newest()->time);
+  if (layer.audit()) frame.judgement = layer.audit()->newest();
+  if (layer.newest()) frame.snapshot_time_s = seconds(layer.newest()->time);
   if (!shown()) return frame;
-  const slam::Snapshot& snapshot = *slam.newest();
+  const slam::Snapshot& snapshot = *layer.newest();
   frame.ellipsoids = ellipsoidCount(picture.scene);
   frame.features = picture.scene.cones.size() - 1;  // one is the robot's
 

@@ -11,27 +11,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-template <typename Matrix>
-ordered_json rows(const Matrix& matrix) {
-  ordered_json all = ordered_json::array();
-  for (int row = 0; row < matrix.rows(); ++row) {
-    ordered_json one = ordered_json::array();
-    for (int col = 0; col < matrix.cols(); ++col) one.push_back(matrix(row, col));
-    all.push_back(std::move(one));
-  }
-  return all;
-}
-
-ordered_json orNull(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
 ordered_json registrationJson(const FrameReport& frame) {
   ordered_json json{{"state", tracking::name(frame.state)}};
   const auto& result = frame.registration;
   json["mode"] = result ? ordered_json(tracking::name(result->mode)) : ordered_json(nullptr);
-  json["T_camera_map"] = result ? rows(result->T_camera_map.matrix()) : ordered_json(nullptr);
-  json["covariance"] = result ? rows(result->covariance) : ordered_json(nullptr);
+  json["T_camera_map"] = result ? rowsJson(result->T_camera_map.matrix()) : ordered_json(nullptr);
+  json["covariance"] = result ? rowsJson(result->covariance) : ordered_json(nullptr);
   json["residual_px"] = result ? ordered_json(result->residual_px) : ordered_json(nullptr);
   json["predicted_overlay_error_px"] =
       result ? ordered_json(result->overlay_error_px) : ordered_json(nullptr);
@@ -48,6 +33,22 @@ ordered_json brokenJson(const slam::LawReport& law) {
           {"violations", law.violations},
           {"amount", law.amount},
           {"features", std::move(features)}};
+}
+
+}  // namespace
+
+ordered_json rowsJson(const Eigen::MatrixXd& matrix) {
+  ordered_json all = ordered_json::array();
+  for (int row = 0; row < matrix.rows(); ++row) {
+    ordered_json one = ordered_json::array();
+    for (int col = 0; col < matrix.cols(); ++col) one.push_back(matrix(row, col));
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+ordered_json orNull(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
 ordered_json alarmsJson(const std::optional<Judgement>& judgement) {
@@ -70,8 +71,6 @@ ordered_json alarmsJson(const std::optional<Judgement>& judgement) {
           {"blamed", std::move(first)}};
 }
 
-}  // namespace
-
 std::optional<double> quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());
@@ -85,16 +84,21 @@ void MonitorReport::add(const FrameReport& frame) {
   ordered_json tips = ordered_json::array();
   for (const TipPixel& tip : frame.tips) tips.push_back({tip.id, tip.px.x(), tip.px.y()});
   const auto worst = quantile(frame.overlay_errors_px, 1.0);
-  frames_.push_back({{"time_s", frame.time_s},
-                     {"snapshot_time_s", orNull(frame.snapshot_time_s)},
-                     {"registration", registrationJson(frame)},
-                     {"overlay_error_px", orNull(worst)},
-                     {"slam_error_m", orNull(frame.slam_error_m)},
-                     {"drawn", {{"ellipsoids", frame.ellipsoids}, {"features", frame.features}}},
-                     {"tips_px", std::move(tips)},
-                     {"alarms", alarmsJson(frame.judgement)}});
-  overlay_errors_px_.insert(overlay_errors_px_.end(), frame.overlay_errors_px.begin(),
-                            frame.overlay_errors_px.end());
+  addFrame({{"time_s", frame.time_s},
+            {"snapshot_time_s", orNull(frame.snapshot_time_s)},
+            {"registration", registrationJson(frame)},
+            {"overlay_error_px", orNull(worst)},
+            {"slam_error_m", orNull(frame.slam_error_m)},
+            {"drawn", {{"ellipsoids", frame.ellipsoids}, {"features", frame.features}}},
+            {"tips_px", std::move(tips)},
+            {"alarms", alarmsJson(frame.judgement)}},
+           frame.overlay_errors_px);
+}
+
+void MonitorReport::addFrame(ordered_json frame, const std::vector<double>& overlay_errors_px) {
+  frames_.push_back(std::move(frame));
+  overlay_errors_px_.insert(overlay_errors_px_.end(), overlay_errors_px.begin(),
+                            overlay_errors_px.end());
 }
 
 void MonitorReport::addStage(const std::string& stage, double milliseconds) {

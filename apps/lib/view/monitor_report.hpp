@@ -40,6 +40,8 @@ struct FrameReport {
 class MonitorReport {
  public:
   void add(const FrameReport& frame);
+  /// A frame of another viewer, as it stands in the file, with the errors that the summary counts.
+  void addFrame(nlohmann::ordered_json frame, const std::vector<double>& overlay_errors_px);
   void addStage(const std::string& stage, double milliseconds);
   /// Throws std::runtime_error where the file can't be written.
   void write(const std::filesystem::path& file) const;
@@ -51,6 +53,11 @@ class MonitorReport {
   std::vector<double> overlay_errors_px_;
   std::map<std::string, std::vector<double>> stage_ms_;
 };
+
+[[nodiscard]] nlohmann::ordered_json rowsJson(const Eigen::MatrixXd& matrix);
+[[nodiscard]] nlohmann::ordered_json orNull(const std::optional<double>& value);
+/// What the audit says, null where there is none.
+[[nodiscard]] nlohmann::ordered_json alarmsJson(const std::optional<Judgement>& judgement);
 
 /// The share-quantile (0 … 1) of values by linear interpolation; nothing of none.
 [[nodiscard]] std::optional<double> quantile(std::vector<double> values, double share);

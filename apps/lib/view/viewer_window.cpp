@@ -47,23 +47,25 @@ void handle(const engine::Input& input, KeyCommands& keys) {
 
 }  // namespace
 
-void runInWindow(Monitor& monitor, const std::string& title) {
-  if (!monitor.next()) return;
-  monitor.draw();
-  engine::Window window(
-      monitor.gpu(),
-      {.title = title, .width = monitor.drawn().width, .height = monitor.drawn().height});
-  KeyCommands keys(monitor.choices());
+void runInWindow(Viewer& viewer, const std::string& title, std::optional<int> screen) {
+  if (!viewer.next()) return;
+  viewer.draw();
+  engine::Window window(viewer.gpu(), {.title = title,
+                                       .width = viewer.drawn().width,
+                                       .height = viewer.drawn().height,
+                                       .monitor = screen.value_or(0),
+                                       .full_screen = screen.has_value()});
+  KeyCommands keys(viewer.choices());
   keys.say(KeyCommands::kHelp);
   Pace pace;
   bool ended = false;
   while (window.open() && !keys.quit()) {
     handle(window.poll(), keys);
-    const double shown = monitor.secondsShown();
+    const double shown = viewer.secondsShown();
     const bool step = keys.takeStep();
-    const bool due = !monitor.paced() || pace.due(shown, monitor.frameSeconds());
+    const bool due = !viewer.paced() || pace.due(shown, viewer.frameSeconds());
     if (!ended && (step || (!keys.paused() && due))) {
-      ended = !monitor.next();
+      ended = !viewer.next();
       if (ended) keys.say("the end of the input · q closes the window");
     }
     if (keys.paused() || ended) {
@@ -73,12 +75,13 @@ void runInWindow(Monitor& monitor, const std::string& title) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     // Late by more than a quarter of a second: go on from here instead of racing after it.
-    if (pace.due(monitor.secondsShown(), 0.25)) pace.rebase(monitor.secondsShown());
-    monitor.draw();
-    window.show({&monitor.drawn(), 1});
+    if (pace.due(viewer.secondsShown(), 0.25)) pace.rebase(viewer.secondsShown());
+    viewer.draw();
+    window.show({&viewer.drawn(), 1});
+    viewer.presented();
     if (keys.takeScreenshot()) {
       const std::string name = screenshotName();
-      writePicture(name, monitor.drawn());
+      writePicture(name, viewer.drawn());
       keys.say("wrote " + name);
     }
   }

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include "apps/lib/view/monitor.hpp"
+#include "apps/lib/view/viewer.hpp"
 
 namespace slamscope::apps {
 
-/// Shows a monitor in a window until the user closes it or presses q. At the end of the input the
+/// Shows a viewer in a window until the user closes it or presses q. At the end of the input the
 /// last picture stays. Returns when the window is closed.
 ///
 /// Keys: m mode, a axis, + and - gain, e covariance rings, l labels, g legend, f fade, space pause,
 /// . one frame, s screenshot, h keys, q or Esc quit.
-void runInWindow(Monitor& monitor, const std::string& title);
+///
+/// `screen`: full screen on that one of the list of monitors.
+void runInWindow(Viewer& viewer, const std::string& title, std::optional<int> screen = {});
 
 }  // namespace slamscope::apps

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "apps/lib/view/hmd_options.hpp"
+#include "apps/lib/view/viewer.hpp"
+
+namespace slamscope::apps {
+
+/// What a person with a video-see-through HMD sees: both cameras' pictures, undistorted, and over
+/// each what the filter believes, standing on the real floor. Both eyes are drawn at once, each
+/// with the head's pose at its own frame's mid-exposure, then laid out in one picture.
+class Hmd final : public Viewer {
+ public:
+  /// Opens everything. Throws std::runtime_error, one line, where something can't be had.
+  explicit Hmd(const HmdOptions& options);
+  ~Hmd() override;
+
+  bool next() override;
+  void draw() override;
+  void presented() override;
+  void finish() override;
+
+  [[nodiscard]] const engine::Image& drawn() const override;
+  [[nodiscard]] Choices& choices() override;
+  [[nodiscard]] bool paced() const override;
+  [[nodiscard]] double secondsShown() const override;
+  [[nodiscard]] double frameSeconds() const override;
+  [[nodiscard]] std::uint64_t framesShown() const override;
+  [[nodiscard]] double progress() const override;
+  [[nodiscard]] std::string status() const override;  ///< of the head, one line
+  [[nodiscard]] const std::vector<std::string>& notes() const override;
+  [[nodiscard]] const std::shared_ptr<engine::Gpu>& gpu() const override;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace slamscope::apps

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What the HMD's view hands on: drawn pictures, the report, the stamps.
+#include <stdexcept>
+
+#include "apps/lib/view/hmd_state.hpp"
+#include "apps/lib/view/overlay.hpp"
+
+namespace slamscope::apps {
+
+using slam::seconds;
+
+void Hmd::State::draw() {
+  StopWatch watch;
+  compose();
+  report.addStage("scene", watch.lap());
+  offscreen.draw(views, scene, render, pixels);
+  const bool swapped = options.swap_eyes;
+  layOut(options.layout, pixels[swapped ? 1 : 0], pixels[swapped ? 0 : 1], picture);
+  report.addStage("draw", watch.lap());
+  if (drawn_frame == frame_count) return;
+  drawn_frame = frame_count;
+  hand();
+  report.addStage("write", watch.lap());
+}
+
+void Hmd::State::hand() {
+  if (output) output->write(picture);
+  if (options.view.report.empty()) return;
+  const HmdFrame frame = frameReport();
+  std::vector<double> errors = frame.eyes[0].overlay_errors_px;
+  errors.insert(errors.end(), frame.eyes[1].overlay_errors_px.begin(),
+                frame.eyes[1].overlay_errors_px.end());
+  report.addFrame(hmdFrameJson(frame), errors);
+}
+
+HmdFrame Hmd::State::frameReport() const {
+  HmdFrame frame{.head = head, .problems = problems, .true_T_world_map = {}, .eyes = {}};
+  if (setup.lab != nullptr) frame.true_T_world_map = setup.lab->options().room.T_world_map;
+  for (std::size_t eye = 0; eye < views.size(); ++eye) {
+    FrameReport& drawn = frame.eyes[eye];
+    const EyeSight& sight = head.eyes()[eye];
+    drawn.time_s = seconds(frame_time);
+    if (layer.audit()) drawn.judgement = layer.audit()->newest();
+    if (!layer.newest()) continue;
+    drawn.snapshot_time_s = seconds(layer.newest()->time);
+    if (!sight.T_eye_map || scene.cones.empty()) continue;
+    drawn.ellipsoids = ellipsoidCount(scene);
+    drawn.features = scene.cones.size() - 1;  // one is the robot's
+    measureOverlay({.camera = views[eye].camera,
+                    .T_camera_map = *sight.T_eye_map,
+                    .true_T_camera_map = sight.true_T_eye_map,
+                    .map_scale = setup.map_scale},
+                   *layer.newest(), drawn);
+  }
+  return frame;
+}
+
+void Hmd::State::finish() {
+  if (!ever_shown && !setup.source->live() && (setup.lab == nullptr || frame_count > 0)) {
+    throw std::runtime_error(options.view.camera + ": the map was never found in " +
+                             std::to_string(frame_count) + " frames (" +
+                             head.statusLines().front() + ")");
+  }
+  if (output) output->finish();
+  if (!options.view.picture.empty()) writePicture(options.view.picture, picture);
+  if (!options.view.report.empty()) report.write(options.view.report);
+}
+
+void Hmd::presented() {
+  State& state = *state_;
+  if (state.presented_frame == state.frame_count) return;
+  state.presented_frame = state.frame_count;
+  state.stations.presented = std::chrono::steady_clock::now();
+  const double software = softwareLatencyMs(state.stations);
+  state.report.addStage("dequeue_to_present", software);
+  state.latency_ms = wholeLatencyMs(state.stations);
+  if (!state.latency_ms && state.options.view.window) state.latency_ms = software;
+  if (state.latency) state.latency->add(state.stations);
+}
+
+}  // namespace slamscope::apps

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/lib/view/head_view.hpp"
+#include "apps/lib/view/hmd.hpp"
+#include "apps/lib/view/hmd_report.hpp"
+#include "apps/lib/view/latency_log.hpp"
+#include "apps/lib/view/output_camera.hpp"
+#include "apps/lib/view/picture_output.hpp"
+#include "apps/lib/view/slam_layer.hpp"
+#include "apps/lib/view/stop_watch.hpp"
+#include "engine/render/offscreen.hpp"
+
+namespace slamscope::apps {
+
+/// All that a Hmd holds. What it takes in and composes: hmd.cpp; what it hands on: hmd_output.cpp.
+struct Hmd::State {
+  explicit State(const HmdOptions& request);
+
+  bool next();
+  [[nodiscard]] bool runIsOver() const;
+  [[nodiscard]] int registrationPairs() const;
+
+  void compose();
+  [[nodiscard]] std::vector<std::string> lines() const;
+  void draw();
+  void hand();
+  [[nodiscard]] HmdFrame frameReport() const;
+  void finish();
+
+  HmdOptions options;
+  std::optional<RunTruth> truth;
+  StereoSetup setup;
+  Choices choices;
+  SlamLayer layer;
+  HeadView head;
+  PairPrefetch pairs;
+  std::shared_ptr<engine::Gpu> gpu;
+  std::array<engine::View, 2> views;
+  engine::Offscreen offscreen;
+  std::unique_ptr<PictureOutput> output;
+  std::optional<LatencyLog> latency;
+  MonitorReport report;
+
+  engine::Scene scene;
+  engine::RenderOptions render;
+  std::vector<engine::Image> pixels;
+  engine::Image picture;  ///< both eyes
+  std::vector<std::string> problems;
+  FrameStations stations;
+  std::optional<double> latency_ms;  ///< of the frame before: what the status line says
+  std::optional<std::chrono::nanoseconds> first_time;
+  std::chrono::nanoseconds frame_time{}, frame_step{};
+  std::uint64_t frame_count = 0, drawn_frame = 0, presented_frame = 0;
+  double metres_per_px = 0.0;  ///< at the map's origin, when it was first seen in its place
+  bool ever_shown = false;
+};
+
+}  // namespace slamscope::apps

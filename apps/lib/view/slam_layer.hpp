@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/lib/audit_watch.hpp"
+#include "apps/lib/run_truth.hpp"
+#include "apps/lib/slam_feed.hpp"
+#include "apps/lib/view/alarm_marks.hpp"
+#include "apps/lib/view/legend.hpp"
+#include "apps/lib/view/monitor_options.hpp"
+#include "apps/lib/view/run_clock.hpp"
+#include "apps/lib/view/slam_view.hpp"
+#include "apps/lib/view/viewer.hpp"
+
+namespace slamscope::apps {
+
+/// The true world of the run that a lab is to show; nothing where the camera isn't a lab or the run
+/// has no truth.
+[[nodiscard]] std::optional<RunTruth> truthFor(const MonitorOptions& options);
+
+[[nodiscard]] Viewer::Choices choicesOf(const MonitorOptions& options);
+
+/// What a viewer lays over its pictures, whichever camera they come from: the filter's state at a
+/// frame's time as glyphs, status lines, legend and what the audit says.
+class SlamLayer {
+ public:
+  /// Opens the feed. Both arguments must outlive it.
+  SlamLayer(const MonitorOptions& options, const Viewer::Choices& choices);
+
+  /// The time of the first frame: lays it on the run's start unless one clock stamped both. Returns
+  /// a line for people where it did.
+  [[nodiscard]] std::optional<std::string> begin(std::chrono::nanoseconds first_frame,
+                                                 bool stamped);
+  /// Takes what the filter has said up to the time of a frame.
+  void advance(std::chrono::nanoseconds frame_time);
+  /// Takes what the audit has to say of that.
+  void judge();
+
+  /// How the map lies in the picture.
+  struct Place {
+    const engine::View& view;  ///< whose labels are kept apart
+    double map_scale = 1.0;
+    double metres_per_px = 0.0;  ///< at the map's origin: what glyphs' sizes go by
+    Eigen::Vector3d viewer_up = Eigen::Vector3d::UnitZ();  ///< as SceneStyle
+  };
+  /// The scene, with panels for a picture of the camera's size. Without a place: only the status.
+  /// `lines`: what the viewer has to say of its camera.
+  [[nodiscard]] engine::Scene compose(const std::optional<Place>& place,
+                                      const engine::Pinhole& camera,
+                                      const std::vector<std::string>& lines);
+
+  [[nodiscard]] const slam::SnapshotPtr& newest() const { return slam_.newest(); }
+  [[nodiscard]] const std::optional<AuditWatch>& audit() const { return audit_; }
+  [[nodiscard]] const SlamFeed& feed() const { return *feed_; }
+  [[nodiscard]] std::chrono::nanoseconds runTime() const { return run_time_; }
+  /// Share of the run between truth's start and end that was shown.
+  [[nodiscard]] double progress(const RunTruth& truth) const;
+
+ private:
+  [[nodiscard]] SceneStyle style(const Place& place, const engine::Pinhole& camera) const;
+  [[nodiscard]] std::string runLine(const engine::Scene& scene) const;
+  [[nodiscard]] std::vector<std::string> statusLines(const engine::Scene& scene,
+                                                     const std::vector<std::string>& lines) const;
+  [[nodiscard]] Legend legend(const Place& place) const;
+  [[nodiscard]] bool clustered() const {
+    return choices_.mode == slam::PairMode::between_clusters ||
+           choices_.mode == slam::PairMode::min_mean_max;
+  }
+
+  const MonitorOptions& options_;
+  const Viewer::Choices& choices_;
+  std::unique_ptr<SlamFeed> feed_;
+  SlamView slam_;
+  std::optional<AuditWatch> audit_;
+  AlarmMarks alarms_;  ///< of the newest judgement
+  RunClock clock_;
+  std::chrono::nanoseconds run_time_{};
+  engine::FontAtlas fonts_;
+};
+
+}  // namespace slamscope::apps

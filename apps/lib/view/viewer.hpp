@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/gpu.hpp"
+#include "engine/scene/view.hpp"
+#include "slam/correlation.hpp"
+#include "slam/correlation_pairs.hpp"
+
+namespace slamscope::apps {
+
+/// Frame by frame a picture of what the filter believes: the overhead view (Monitor), the two eyes
+/// of a head (Hmd).
+///
+///   while (viewer.next()) viewer.draw();
+///   viewer.finish();
+class Viewer {
+ public:
+  Viewer() = default;
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+  virtual ~Viewer() = default;
+
+  /// Takes the next frame and the snapshot that belongs to it; false at the end.
+  virtual bool next() = 0;
+  /// Draws what was taken last and hands it to the outputs; draws it again, with no output, when
+  /// called again for the same frame (a window that is paused).
+  virtual void draw() = 0;
+  /// What was drawn stands before the user's eyes now.
+  virtual void presented() {}
+  /// Closes the outputs. Throws std::runtime_error where a finite input never showed the tags that
+  /// are needed.
+  virtual void finish() = 0;
+
+  [[nodiscard]] virtual const engine::Image& drawn() const = 0;
+
+  /// The user's choices; changes show from the next draw() on.
+  struct Choices {
+    slam::PairMode mode = slam::PairMode::all;
+    slam::AxisScale axis;
+    bool covariance_rings = false;
+    bool labels = true;
+    bool legend = true;
+    double opacity = 1.0;
+    std::string message;  ///< one more status line: "paused", a key's effect
+  };
+  [[nodiscard]] virtual Choices& choices() = 0;
+
+  /// Whether frames come faster than they should be shown: a film or a lab beside a window or a
+  /// live filter.
+  [[nodiscard]] virtual bool paced() const = 0;
+  [[nodiscard]] virtual double secondsShown() const = 0;  ///< from the first frame to the newest
+  [[nodiscard]] virtual double frameSeconds() const = 0;  ///< from the frame before to this one
+  [[nodiscard]] virtual std::uint64_t framesShown() const = 0;
+  /// Share of the run that was shown, where its end is known; else negative.
+  [[nodiscard]] virtual double progress() const = 0;
+  [[nodiscard]] virtual std::string status() const = 0;  ///< of the registration, one line
+  /// What the user should know of how the inputs were taken.
+  [[nodiscard]] virtual const std::vector<std::string>& notes() const = 0;
+  [[nodiscard]] virtual const std::shared_ptr<engine::Gpu>& gpu() const = 0;
+};
+
+}  // namespace slamscope::apps
