@@ -16,7 +16,7 @@
 namespace slamscope::engine {
 namespace {
 
-Image noise(int width, int height, unsigned seed) {
+Image noisyBytes(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   Image image{width, height, {}};
   image.rgba.resize(static_cast<std::size_t>(4) * width * height);
@@ -122,7 +122,7 @@ class WindowTest : public testing::Test {
 
 TEST_F(WindowTest, ShowsPicturesByteForByte) {
   Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
-  const Image picture = noise(320, 240, 1);
+  const Image picture = noisyBytes(320, 240, 1);
   EXPECT_TRUE(becomes(window, picture));
   EXPECT_GT(window.framesPerSecond(), 0.0);
 
@@ -206,18 +206,18 @@ TEST_F(WindowTest, ShowsASceneByteForByteAsTheFileHasIt) {
 
 TEST_F(WindowTest, FollowsResizingSilently) {
   Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
-  EXPECT_TRUE(becomes(window, noise(320, 240, 2)));
+  EXPECT_TRUE(becomes(window, noisyBytes(320, 240, 2)));
   for (const auto& [width, height] : {std::pair{400u, 300u}, {160u, 120u}, {401u, 33u}, {1u, 1u}}) {
     display_.resize(kTitle, width, height);
-    EXPECT_TRUE(becomes(window, noise(int(width), int(height), width)));
+    EXPECT_TRUE(becomes(window, noisyBytes(int(width), int(height), width)));
   }
   window.resize(320, 240);
-  EXPECT_TRUE(becomes(window, noise(320, 240, 3)));
+  EXPECT_TRUE(becomes(window, noisyBytes(320, 240, 3)));
 }
 
 TEST_F(WindowTest, ResizingBetweenPollAndShowIsSilentToo) {
   Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
-  const Image picture = noise(320, 240, 4);
+  const Image picture = noisyBytes(320, 240, 4);
   for (unsigned i = 0; i < 20; ++i) {
     (void)window.poll();
     display_.resize(kTitle, 300 + 3 * i, 200 + 5 * i);
@@ -229,9 +229,9 @@ TEST_F(WindowTest, ResizingBetweenPollAndShowIsSilentToo) {
 
 TEST_F(WindowTest, ShowsNothingWhileMinimisedAndComesBack) {
   Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
-  EXPECT_TRUE(becomes(window, noise(320, 240, 5)));
+  EXPECT_TRUE(becomes(window, noisyBytes(320, 240, 5)));
   display_.setMinimised(kTitle, true);
-  const Image picture = noise(320, 240, 6);
+  const Image picture = noisyBytes(320, 240, 6);
   for (int i = 0; i < 10; ++i) {
     (void)window.poll();
     window.show({&picture, 1});
@@ -245,7 +245,7 @@ TEST_F(WindowTest, ShowsNothingWhileMinimisedAndComesBack) {
 TEST_F(WindowTest, SurvivesTheLossOfSurfaceAndSwapchain) {
   Window window(gpu_, {.title = kTitle, .width = 320, .height = 240, .low_latency = true});
   for (unsigned i = 0; i < 5; ++i) {
-    const Image picture = noise(320, 240, 10 + i);
+    const Image picture = noisyBytes(320, 240, 10 + i);
     window.show({&picture, 1});
     window.rebuild();
     EXPECT_TRUE(becomes(window, picture));
@@ -255,21 +255,21 @@ TEST_F(WindowTest, SurvivesTheLossOfSurfaceAndSwapchain) {
 TEST_F(WindowTest, PicturesOfChangingSizeFollowEachOther) {
   Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
   for (const int width : {64, 640, 320}) {
-    const Image picture = noise(width, width * 3 / 4, 20);
+    const Image picture = noisyBytes(width, width * 3 / 4, 20);
     (void)window.poll();
     window.show({&picture, 1});
   }
-  EXPECT_TRUE(becomes(window, noise(320, 240, 21)));
+  EXPECT_TRUE(becomes(window, noisyBytes(320, 240, 21)));
   EXPECT_THROW(window.show(std::span<const Image>{}), std::invalid_argument);
-  Image broken = noise(320, 240, 22);
+  Image broken = noisyBytes(320, 240, 22);
   broken.rgba.pop_back();
   EXPECT_THROW(window.show({&broken, 1}), std::invalid_argument);
-  EXPECT_TRUE(becomes(window, noise(320, 240, 23)));
+  EXPECT_TRUE(becomes(window, noisyBytes(320, 240, 23)));
 }
 
 TEST_F(WindowTest, KeysComeAsTyped) {
   Window window(gpu_, {.title = kTitle, .width = 320, .height = 240});
-  EXPECT_TRUE(becomes(window, noise(320, 240, 7)));
+  EXPECT_TRUE(becomes(window, noisyBytes(320, 240, 7)));
   display_.pressKey(kTitle, XK_m);
   display_.pressKey(kTitle, XK_m, true);
   display_.pressKey(kTitle, XK_space);
@@ -288,8 +288,8 @@ TEST_F(WindowTest, KeysComeAsTyped) {
 
 TEST_F(WindowTest, ClicksComeInPixelsOfThePicture) {
   Window window(gpu_, {.title = kTitle, .width = 500, .height = 240});
-  EXPECT_TRUE(becomes(window, noise(500, 240, 8)));
-  const Image picture = noise(320, 240, 8);
+  EXPECT_TRUE(becomes(window, noisyBytes(500, 240, 8)));
+  const Image picture = noisyBytes(320, 240, 8);
   window.show({&picture, 1});
   display_.click(kTitle, 90 + 25, 60);
   const auto clicks = pollFor(window, 1).clicks;
@@ -316,7 +316,7 @@ TEST_F(WindowTest, ClosesWhenAsked) {
 TEST_F(WindowTest, OpensTwiceAndFullScreen) {
   { Window first(gpu_, {.title = kTitle, .width = 320, .height = 240}); }
   Window second(gpu_, {.title = kTitle, .full_screen = true});
-  EXPECT_TRUE(becomes(second, noise(800, 600, 9)));
+  EXPECT_TRUE(becomes(second, noisyBytes(800, 600, 9)));
 }
 
 TEST_F(WindowTest, MonitorThatIsNotThereIsNamed) {
