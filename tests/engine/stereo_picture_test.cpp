@@ -93,7 +93,7 @@ std::shared_ptr<Image> noise(unsigned seed) {
 }
 
 std::array<View, 2> noisyEyes() {
-  View view = lookingAt(kCamera, {0.1, -1.2, 0.9}, {0, 0, 0});
+  View view = lookingAt(kEye, {0.1, -1.2, 0.9}, {0, 0, 0});
   view.background.image = noise(1);
   std::array views = {view, besides(view, 0.064)};
   views[1].background.image = noise(77);
