@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "slam/helper_thread.hpp"
+#include "slam/vector4.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -16,9 +17,6 @@ constexpr std::ptrdiff_t kBlock = 128;  // rows; a multiple of kRows
 /// N² m from which a second thread pays: waking it takes some 20 µs, in which one thread does this.
 constexpr std::ptrdiff_t kWorthSharing = 2'000'000;
 
-/// Four doubles, wherever they lie.
-using Vector4 [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-
 [[gnu::always_inline]] inline void take(double* out, const Vector4& low, const Vector4& high) {
   *reinterpret_cast<Vector4*>(out) -= low;
   *reinterpret_cast<Vector4*>(out + 4) -= high;
@@ -26,11 +24,7 @@ using Vector4 [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double
 
 /// Rows `begin` … `end` − 1 of the lower triangle, `begin` a multiple of kRows. `panels`: Y in
 /// panels of eight rows, each panel k by k, the last one filled up with zeros.
-// Sanitizers run before the resolvers of multi-versioned functions may.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-[[gnu::target_clones("fma", "default")]]
-#endif
+SLAMSCOPE_FMA_CLONES
 void subtractRows(double* P, std::ptrdiff_t size, const double* panels, std::ptrdiff_t m,
                   std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t col = 0; col < end; col += kCols) {

@@ -4,25 +4,22 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "slam/vector4.hpp"
+
 namespace slamscope::slam {
 namespace {
 
 constexpr std::ptrdiff_t kPanelRows = 16;   // four vectors: sums that do not wait for one another
 constexpr std::ptrdiff_t kPanelCols = 128;  // wider ones go Eigen's way
 
-using FourLanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-
 /// Forward substitution of sixteen rows, column by column: y_j = (b_j − Σ_{k<j} y_k L_jk) / L_jj.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-[[gnu::target_clones("fma", "default")]]
-#endif
+SLAMSCOPE_FMA_CLONES
 void solvePanel(const double* L, std::ptrdiff_t m, double* panel) {
   for (std::ptrdiff_t j = 0; j < m; ++j) {
-    auto* const y = reinterpret_cast<FourLanes*>(panel + j * kPanelRows);
-    FourLanes a = y[0], b = y[1], c = y[2], d = y[3];
+    auto* const y = reinterpret_cast<Vector4*>(panel + j * kPanelRows);
+    Vector4 a = y[0], b = y[1], c = y[2], d = y[3];
     for (std::ptrdiff_t k = 0; k < j; ++k) {
-      const auto* const known = reinterpret_cast<const FourLanes*>(panel + k * kPanelRows);
+      const auto* const known = reinterpret_cast<const Vector4*>(panel + k * kPanelRows);
       const double factor = L[k * m + j];
       a -= known[0] * factor, b -= known[1] * factor;
       c -= known[2] * factor, d -= known[3] * factor;

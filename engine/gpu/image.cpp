@@ -28,4 +28,13 @@ DeviceImage::DeviceImage(const Core& core, const ImageInfo& info) : info_(info) 
                                                                        .layerCount = info.layers}}};
 }
 
+vk::SamplerCreateInfo bilinearWithBlackBorder() {
+  return {.magFilter = vk::Filter::eLinear,
+          .minFilter = vk::Filter::eLinear,
+          .addressModeU = vk::SamplerAddressMode::eClampToBorder,
+          .addressModeV = vk::SamplerAddressMode::eClampToBorder,
+          .addressModeW = vk::SamplerAddressMode::eClampToEdge,
+          .borderColor = vk::BorderColor::eFloatOpaqueBlack};
+}
+
 }  // namespace slamscope::engine::gpu

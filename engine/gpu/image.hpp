@@ -31,4 +31,7 @@ class DeviceImage {
   vk::raii::ImageView view_ = nullptr;
 };
 
+/// Sampler of a picture: bilinear, black outside of it.
+[[nodiscard]] vk::SamplerCreateInfo bilinearWithBlackBorder();
+
 }  // namespace slamscope::engine::gpu

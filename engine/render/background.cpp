@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/background.hpp"
 
+#include "engine/gpu/image.hpp"
 #include "engine/render/shader_code.hpp"
 
 namespace slamscope::engine {
@@ -14,15 +15,6 @@ gpu::Binding sampled(std::uint32_t binding) {
   return {.binding = binding,
           .type = vk::DescriptorType::eCombinedImageSampler,
           .stages = vk::ShaderStageFlagBits::eFragment};
-}
-
-vk::SamplerCreateInfo bilinearWithBlackBorder() {
-  return {.magFilter = vk::Filter::eLinear,
-          .minFilter = vk::Filter::eLinear,
-          .addressModeU = vk::SamplerAddressMode::eClampToBorder,
-          .addressModeV = vk::SamplerAddressMode::eClampToBorder,
-          .addressModeW = vk::SamplerAddressMode::eClampToEdge,
-          .borderColor = vk::BorderColor::eFloatOpaqueBlack};
 }
 
 }  // namespace
@@ -39,7 +31,7 @@ BackgroundPass::BackgroundPass(const PassSetup& setup)
                              .sets = {setup.frame_layout, set_.layout()},
                              .view_mask = setup.view_mask,
                              .blend = false}),
-      sampler_(setup.core.device(), bilinearWithBlackBorder()),
+      sampler_(setup.core.device(), gpu::bilinearWithBlackBorder()),
       eyes_{Eye(setup.core), Eye(setup.core)} {
   bind(0);
   bind(1);

@@ -12,15 +12,6 @@ namespace {
 constexpr std::uint32_t kDrawn = 0;
 constexpr std::uint32_t kLenses = 1;
 
-vk::SamplerCreateInfo blackOutside() {
-  return {.magFilter = vk::Filter::eLinear,
-          .minFilter = vk::Filter::eLinear,
-          .addressModeU = vk::SamplerAddressMode::eClampToBorder,
-          .addressModeV = vk::SamplerAddressMode::eClampToBorder,
-          .addressModeW = vk::SamplerAddressMode::eClampToEdge,
-          .borderColor = vk::BorderColor::eFloatOpaqueBlack};
-}
-
 interop::vec3 floats(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
@@ -57,7 +48,7 @@ LensPass::LensPass(const gpu::Core& core, const gpu::DeviceImage& drawn)
                        .view_mask = (1U << drawn.layers()) - 1U,
                        .depth_format = vk::Format::eUndefined,
                        .blend = false}),
-      sampler_(core.device(), blackOutside()) {
+      sampler_(core.device(), gpu::bilinearWithBlackBorder()) {
   set_.writeImage(kDrawn, 0, drawn.view(), *sampler_);
   set_.writeBuffer(kLenses, lenses_.handle());
 }

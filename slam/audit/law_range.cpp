@@ -28,13 +28,13 @@ Outcome checkRange(const Transition& t, const UpdateAnatomy& anatomy) {
   if (anatomy.support.kind != Outcome::Kind::checked) {
     return Outcome::notCheckable(anatomy.support.reason);
   }
-  const SpanBasis basis = spanOf(t, anatomy);
-  if (basis.W.cols() == 0) return Outcome::notCheckable("range(D) is not known");
+  SpanBasis kept = spanOf(t, anatomy);
+  if (kept.W.cols() == 0) return Outcome::notCheckable("range(D) is not known");
   ProbedChange mean;  // one "probe": the change of the mean
   mean.Omega = Eigen::MatrixXd::Zero(t.size(), 1);
-  mean.Y = t.scale.cwiseProduct(t.meanChange());
+  const Eigen::VectorXd change = t.meanChange();
+  mean.Y = t.scale.cwiseProduct(change);
   const Eigen::VectorXd rounding = (2.0 * t.mean_noise) * t.scale;
-  SpanBasis kept = basis;
   for (const int state : statesOf(anatomy.outside)) {
     kept.W.row(state).setZero();
     mean.Y.row(state).setZero();
@@ -43,7 +43,7 @@ Outcome checkRange(const Transition& t, const UpdateAnatomy& anatomy) {
   if (!(size > 0.0)) return Outcome::of(0.0, 0.0);
   const bool as_fitted = anatomy.fit.whole && anatomy.outside.empty();
   SpanFit fit = as_fitted ? fitSpan(t, mean, anatomy.span) : fitSpan(t, mean, kept);
-  if (!fit.whole && std::abs(t.meanChange()[2]) > 1.5) {
+  if (!fit.whole && std::abs(change[2]) > 1.5) {
     // A gain that turns the heading by more than half a turn can't be told from one by less.
     kept.W.row(2).setZero();
     mean.Y.row(2).setZero();

@@ -8,6 +8,7 @@
 
 #include "slam/angle.hpp"
 #include "slam/simulation_random.hpp"
+#include "slam/vector4.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -42,9 +43,6 @@ SnapshotPtr rearranged(const Snapshot& snapshot, const std::vector<int>& places)
   return result;
 }
 
-/// Four doubles, wherever they lie.
-using Vector4 [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-
 double sumOf(const Vector4& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
@@ -52,11 +50,7 @@ double sumOf(const Vector4& v) {
 /// y += D w and z += D v for the rows and columns from `begin` of D = before − after, both packed
 /// by rows of the lower triangle: each entry is read once and used for both triangles and both
 /// vectors.
-// Sanitizers run before the resolvers of multi-versioned functions may.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-[[gnu::target_clones("fma", "default")]]
-#endif
+SLAMSCOPE_FMA_CLONES
 void addTwoImages(const double* before, const double* after, std::ptrdiff_t begin,
                   std::ptrdiff_t rows, const double* w, const double* v, double* y, double* z) {
   for (std::ptrdiff_t i = 0; i < rows; ++i) {
