@@ -12,7 +12,7 @@
 namespace slamscope::slam {
 namespace {
 
-constexpr std::array<std::pair<PairMode, std::string_view>, 5> kNames{{
+constexpr std::array<std::pair<PairMode, std::string_view>, 5> kModeNames{{
     {PairMode::all, "all"},
     {PairMode::between_clusters, "between-clusters"},
     {PairMode::min_mean_max, "min-mean-max"},
@@ -92,13 +92,13 @@ ClusterPair summarise(const Snapshot& snapshot, const Clustering& clusters, int 
 }  // namespace
 
 std::string_view pairModeName(PairMode mode) {
-  return std::find_if(kNames.begin(), kNames.end(),
+  return std::find_if(kModeNames.begin(), kModeNames.end(),
                       [mode](const auto& known) { return known.first == mode; })
       ->second;
 }
 
 PairMode pairModeFromName(std::string_view name) {
-  for (const auto& [mode, known] : kNames) {
+  for (const auto& [mode, known] : kModeNames) {
     if (known == name) return mode;
   }
   throw std::invalid_argument("no mode of the name '" + std::string(name) +

@@ -24,8 +24,11 @@ void readScanHeader(TextTable& table) {
 std::vector<double> readReturns(const TextTable& table) {
   std::vector<double> values;
   values.reserve(table.cells());
+  std::string column(1, 'r');
   for (std::size_t k = kScanColumns.size(); k < table.cells(); ++k) {
-    values.push_back(table.numberIfAny(k, "r" + std::to_string(k - kScanColumns.size())));
+    column.resize(1);
+    column += std::to_string(k - kScanColumns.size());
+    values.push_back(table.numberIfAny(k, column));
   }
   return values;
 }

@@ -19,7 +19,6 @@
                           const Eigen::EigenBase<Eigen::Matrix2d>&, int);                          \
   SLAMSCOPE_EIGEN_COMPUTE(declared, SelfAdjointEigenSolver<Eigen::Matrix3d>,                       \
                           const Eigen::EigenBase<Eigen::Matrix3d>&, int);                          \
-  declared template void Eigen::PartialPivLU<Eigen::MatrixXd>::compute();                          \
   declared template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace()
 // clang-format on
 

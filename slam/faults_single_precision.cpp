@@ -21,10 +21,13 @@ void SinglePrecision::updateCovariance(EkfState& state, const Correction& correc
     H.middleRows<2>(2 * k) = H_k.dense(state.size()).cast<float>();
   }
   const Eigen::MatrixXf P = state.P.cast<float>();
-  const Eigen::MatrixXf K = P * H.transpose() * correction.S.inverse().cast<float>();
+  const Eigen::MatrixXd I_m = Eigen::MatrixXd::Identity(m, m);
+  const Eigen::MatrixXf S_inverse = correction.S.llt().solve(I_m).cast<float>();
+  // Coefficient by coefficient: a blocked product of floats would be compiled for this alone.
+  const Eigen::MatrixXf K = P.lazyProduct(H.transpose()).eval().lazyProduct(S_inverse);
   const Eigen::MatrixXf I = Eigen::MatrixXf::Identity(state.size(), state.size());
-  const Eigen::MatrixXf I_KH = I - K * H;
-  state.P = (I_KH * P).cast<double>();
+  const Eigen::MatrixXf I_KH = I - K.lazyProduct(H);
+  state.P = I_KH.lazyProduct(P).cast<double>();
 }
 
 void SinglePrecision::initialiseCovariance(EkfState& state, const Matrix23d& G_v,

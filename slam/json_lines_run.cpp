@@ -7,7 +7,7 @@
 namespace slamscope::slam {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{256} << 10U;
+constexpr std::size_t kReadAtOnce = std::size_t{256} << 10U;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ SnapshotPtr JsonLinesRun::readRecord() {
     while (const auto line = nextLine()) {
       if (auto snapshot = decoder_.decode(*line)) return snapshot;
     }
-    const std::size_t size = input_.read(lines_.room(kChunk));
+    const std::size_t size = input_.read(lines_.room(kReadAtOnce));
     lines_.commit(size);
     if (size != 0) continue;
     ended_ = true;

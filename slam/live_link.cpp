@@ -26,15 +26,15 @@ struct LinkSource {
 
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{64} << 10U;
-constexpr int kChunksAPoll = 64;  // 4 MiB, some 300 records of 15 features
+constexpr std::size_t kReceiveAtOnce = std::size_t{64} << 10U;
+constexpr int kReceivesAPoll = 64;  // 4 MiB, some 300 records of 15 features
 
 constexpr std::string_view kScheme = "tcp://";
 
 enum class Read { data, nothing, end };
 
 Read readInto(LinkSource& source) {
-  const auto room = source.lines.room(kChunk);
+  const auto room = source.lines.room(kReceiveAtOnce);
   const ssize_t size = ::read(source.descriptor.number(), room.data(), room.size());
   if (size > 0) source.lines.commit(static_cast<std::size_t>(size));
   if (size > 0) return Read::data;
@@ -167,7 +167,7 @@ std::size_t LiveLink::poll(std::chrono::milliseconds timeout) {
   link.wait(timeout);
   link.welcome();
   std::size_t published = publishLines();
-  for (int chunk = 0; chunk < kChunksAPoll && link.active; ++chunk) {
+  for (int chunk = 0; chunk < kReceivesAPoll && link.active; ++chunk) {
     if (!readable(link.active->descriptor.number())) break;
     const Read read = readInto(*link.active);
     if (read == Read::data) link.status.state = LinkStatus::State::connected;

@@ -78,6 +78,14 @@ std::optional<int> Snapshot::indexOf(FeatureId id) const {
   return static_cast<int>(found - ids.begin());
 }
 
+Eigen::Matrix3d Snapshot::poseCovariance() const {
+  Eigen::Matrix3d P_vv;
+  for (int row = 0; row < 3; ++row) {
+    for (int col = 0; col < 3; ++col) P_vv(row, col) = covariance(row, col);
+  }
+  return P_vv;
+}
+
 bool Snapshot::finite() const {
   const auto finite_number = [](double value) { return std::isfinite(value); };
   return pose.allFinite() &&

@@ -101,6 +101,8 @@ struct Snapshot {
   /// Row of the first coordinate of the feature at `index` in state order.
   [[nodiscard]] static int row(int index) { return 3 + 2 * index; }
   [[nodiscard]] std::optional<int> indexOf(FeatureId id) const;
+  /// P_vv, of x, y (m²), θ (rad²).
+  [[nodiscard]] Eigen::Matrix3d poseCovariance() const;
   /// Every mean and every logged covariance entry is a finite number.
   [[nodiscard]] bool finite() const;
 };

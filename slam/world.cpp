@@ -21,7 +21,7 @@ constexpr double kHalfFloor = 1.4;       // m, of a uniform world
 constexpr double kClusterRadius = 0.3;   // m
 constexpr double kClusterOffset = 1.15;  // m, from the loop's centre
 
-constexpr std::array<std::pair<WorldKind, std::string_view>, 3> kNames{{
+constexpr std::array<std::pair<WorldKind, std::string_view>, 3> kWorldNames{{
     {WorldKind::three_clusters, "three-clusters"},
     {WorldKind::uniform, "uniform"},
     {WorldKind::one_cluster, "one-cluster"},
@@ -85,13 +85,13 @@ Eigen::Vector2d clusterCentre(int cluster) {
 }  // namespace
 
 std::string_view worldName(WorldKind kind) {
-  return std::find_if(kNames.begin(), kNames.end(),
+  return std::find_if(kWorldNames.begin(), kWorldNames.end(),
                       [kind](const auto& known) { return known.first == kind; })
       ->second;
 }
 
 WorldKind worldFromName(std::string_view name) {
-  for (const auto& [kind, known] : kNames) {
+  for (const auto& [kind, known] : kWorldNames) {
     if (known == name) return kind;
   }
   throw std::invalid_argument("no world of the name '" + std::string(name) +

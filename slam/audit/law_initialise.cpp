@@ -17,14 +17,6 @@ Matrix23d jacobian(const Snapshot& s, int index) {
   return G;
 }
 
-Eigen::Matrix3d robotBlock(const Snapshot& s) {
-  Eigen::Matrix3d P;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) P(r, c) = s.covariance(r, c);
-  }
-  return P;
-}
-
 struct Cross {
   double off = 0.0;    ///< worst difference from G P_v, scaled
   double size = 0.0;   ///< largest lawful entry, scaled
@@ -77,7 +69,7 @@ Outcome judgeFeature(const Transition& t, int index, int end, Sensor sensor,
   const int row = Snapshot::row(index);
   const Matrix23d G = jacobian(s, index);
   const Eigen::Matrix2d P_ll = s.covariance.block2(row, row);
-  const Eigen::Matrix2d from_pose = G * robotBlock(s) * G.transpose();
+  const Eigen::Matrix2d from_pose = G * s.poseCovariance() * G.transpose();
   const Cross cross = crossOf(s, index, end);
   const double unit = std::max(P_ll.trace(), 1e-300);
   const double tolerance =

@@ -10,7 +10,7 @@
 namespace slamscope::slam {
 namespace {
 
-constexpr double kSafety = 8.0;
+constexpr double kRoundingSafety = 8.0;
 
 Eigen::MatrixXd robotRows(const Snapshot& snapshot, int columns) {
   Eigen::MatrixXd P_vm(3, columns);
@@ -21,7 +21,7 @@ Eigen::MatrixXd robotRows(const Snapshot& snapshot, int columns) {
 }
 
 /// P_vm before and after, columns scaled by the features' σ; rows in their own units.
-struct Cross {
+struct RobotRows {
   Eigen::MatrixXd before, after;
   Eigen::Vector3d row_scale;  ///< 1 / robot's σ after
 
@@ -31,8 +31,8 @@ struct Cross {
   }
 };
 
-Cross crossOf(const Transition& t) {
-  Cross cross;
+RobotRows robotRowsOf(const Transition& t) {
+  RobotRows cross;
   const int columns = 2 * t.shared;
   const Eigen::VectorXd scale = t.scale.tail(columns);
   cross.before = robotRows(*t.before, columns) * scale.asDiagonal();
@@ -44,12 +44,12 @@ Cross crossOf(const Transition& t) {
   return cross;
 }
 
-struct Candidate {
+struct WrongMotion {
   std::string_view pattern;
   Eigen::Matrix3d F;
 };
 
-std::vector<Candidate> candidates(const Eigen::Vector2d& d, double turn) {
+std::vector<WrongMotion> wrongMotions(const Eigen::Vector2d& d, double turn) {
   const auto with = [](double f13, double f23) {
     Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
     F(0, 2) = f13;
@@ -70,7 +70,7 @@ std::vector<Candidate> candidates(const Eigen::Vector2d& d, double turn) {
           {"motion-late", with(-late.y(), late.x())}};
 }
 
-std::optional<Eigen::Matrix3d> estimated(const Cross& cross, double noise) {
+std::optional<Eigen::Matrix3d> estimated(const RobotRows& cross, double noise) {
   if (cross.before.cols() < 4) return std::nullopt;
   const Eigen::Vector3d length = cross.before.rowwise().norm();
   if (!(length.minCoeff() > 0.0)) return std::nullopt;
@@ -99,8 +99,8 @@ bool averagedOverHeading(const Eigen::Matrix3d& F, const Eigen::Vector2d& d) {
   return std::abs(along - 1.0) < 0.1 && across < 0.02;
 }
 
-bool firstEstimates(const Cross& cross, const Snapshot& after, const LinearisationPoints& points,
-                    double tolerance, double lawful_off) {
+bool firstEstimates(const RobotRows& cross, const Snapshot& after,
+                    const LinearisationPoints& points, double tolerance, double lawful_off) {
   if (!points.earlier_prediction && !points.after_prediction) return false;
   const Eigen::Vector3d from =
       points.after_prediction ? points.after_prediction->pose : *points.earlier_prediction;
@@ -120,7 +120,7 @@ Eigen::Matrix3d lawfulMotionJacobian(const Eigen::Vector2d& displacement) {
 MotionCheck checkMotion(const Transition& t, const LinearisationPoints& points) {
   MotionCheck check;
   if (t.shared == 0) return check;
-  const Cross cross = crossOf(t);
+  const RobotRows cross = robotRowsOf(t);
   const Eigen::VectorXd change = t.meanChange().head<3>();
   const Eigen::Vector2d d = change.head<2>();
   const Eigen::Matrix3d F = lawfulMotionJacobian(d);
@@ -128,7 +128,7 @@ MotionCheck checkMotion(const Transition& t, const LinearisationPoints& points) 
   const double position_scale = std::max(cross.row_scale[0], cross.row_scale[1]);
   const double rounding = t.noise * (2.0 + d.norm() * t.sigma[2] * position_scale) +
                           2.0 * t.mean_noise * theta * position_scale;
-  const double tolerance = kSafety * rounding + 1e-7;
+  const double tolerance = kRoundingSafety * rounding + 1e-7;
   const double visible = d.norm() * theta * position_scale;  // what F(1,3), F(2,3) do
   const double off = cross.off(F);
   check.outcome = Outcome::of(off, tolerance);
@@ -143,7 +143,7 @@ MotionCheck checkMotion(const Transition& t, const LinearisationPoints& points) 
     check.outcome = Outcome::notCheckable("F taken at first estimates, as with --allow fej");
     return check;
   }
-  for (const Candidate& candidate : candidates(d, change[2])) {
+  for (const WrongMotion& candidate : wrongMotions(d, change[2])) {
     const double candidate_off = cross.off(candidate.F);
     if (candidate_off <= tolerance || candidate_off < 0.01 * off) {
       check.outcome.patterns.push_back(candidate.pattern);

@@ -49,13 +49,9 @@ Outcome checkNees(const Snapshot& snapshot, double alpha) {
     outcome.evidence.clear();
     outcome.show("NEES of " + what + ", lawful at most", nees.value, bound);
   };
-  Eigen::Matrix3d P_vv;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) P_vv(r, c) = snapshot.covariance(r, c);
-  }
   Eigen::Vector3d error = snapshot.pose - snapshot.truth->pose;
   error[2] = wrapAngle(error[2]);
-  judge(neesOf(P_vv, error), "the pose", nullptr);
+  judge(neesOf(snapshot.poseCovariance(), error), "the pose", nullptr);
   for (std::size_t k = 0; k < snapshot.truth->ids.size(); ++k) {
     const FeatureId id = snapshot.truth->ids[k];
     const std::optional<int> index = snapshot.indexOf(id);

@@ -11,14 +11,6 @@
 namespace slamscope::slam {
 namespace {
 
-Eigen::Matrix3d robotBlock(const Snapshot& snapshot) {
-  Eigen::Matrix3d P;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) P(r, c) = snapshot.covariance(r, c);
-  }
-  return P;
-}
-
 Eigen::Matrix3d turned(const Eigen::Matrix3d& Q, double heading) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(heading).toRotationMatrix();
@@ -45,7 +37,7 @@ Outcome declared(const Eigen::Matrix3d& Q, const Eigen::Matrix3d& Q_lawful,
 Eigen::Matrix3d processNoiseOf(const Transition& t) {
   const Eigen::Matrix3d F =
       lawfulMotionJacobian(t.after->pose.head<2>() - t.before->pose.head<2>());
-  return robotBlock(*t.after) - F * robotBlock(*t.before) * F.transpose();
+  return t.after->poseCovariance() - F * t.before->poseCovariance() * F.transpose();
 }
 
 Outcome checkProcessNoise(const Transition& t, const std::optional<Eigen::Matrix3d>& body_Q,

@@ -31,7 +31,8 @@ void line(std::string& out, std::string_view label, std::string_view text) {
     const std::string_view word = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (!first && used + 1 + word.size() > kWidth) {
-      out += '\n' + std::string(kLabel, ' ');
+      out += '\n';
+      out.append(kLabel, ' ');
       used = kLabel;
     } else if (!first) {
       out += ' ';

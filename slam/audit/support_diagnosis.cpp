@@ -14,7 +14,7 @@ constexpr double kNearly = 0.05;
 /// Rows that a span must leave over to prove anything.
 constexpr int kSpareRows = 1;
 
-struct Candidate {
+struct WrongReading {
   std::string_view pattern;
   std::string_view allow;  ///< empty: a fault
   std::optional<Eigen::Vector2d> delta;
@@ -28,11 +28,11 @@ std::optional<Eigen::Vector2d> at(const std::optional<Means>& means, FeatureId i
   return Eigen::Vector2d(found->second - means->pose.head<2>());
 }
 
-std::vector<Candidate> candidates(const Transition& t, const LinearisationPoints& points, int i,
-                                  const Eigen::Vector2d& lawful) {
+std::vector<WrongReading> wrongReadings(const Transition& t, const LinearisationPoints& points,
+                                        int i, const Eigen::Vector2d& lawful) {
   const FeatureId id = t.id(i);
   const auto k = static_cast<std::size_t>(i);
-  std::vector<Candidate> list;
+  std::vector<WrongReading> list;
   const auto first = points.first_estimates.find(id);
   if (first != points.first_estimates.end()) {
     const Eigen::Vector2d l = first->second;
@@ -55,7 +55,7 @@ std::vector<Candidate> candidates(const Transition& t, const LinearisationPoints
 
 /// Whether the candidate explains the δ that was used; not where it is hardly another than the
 /// lawful one.
-bool explains(const Candidate& candidate, const Eigen::Vector2d& used,
+bool explains(const WrongReading& candidate, const Eigen::Vector2d& used,
               const Eigen::Vector2d& lawful) {
   if (!candidate.delta) return false;
   const double off = (used - *candidate.delta).norm();
@@ -112,7 +112,7 @@ void blameShift(const Transition& t, int i, const Eigen::Vector2d& used,
 /// The Jacobian has the right form, but at other places of the features from the robot.
 bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
                          const ChangeRange& range, UpdateAnatomy& anatomy) {
-  std::optional<std::vector<Candidate>> common;  // what explains every shift
+  std::optional<std::vector<WrongReading>> common;  // what explains every shift
   double farthest = 0.0;
   Outcome shown = anatomy.support;
   for (std::size_t k = 0; k < anatomy.observed.size(); ++k) {
@@ -124,18 +124,18 @@ bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
     farthest = std::max(farthest, off);
     if (off < 1e-5) continue;
     blameShift(t, i, *used, lawful, shown);
-    std::vector<Candidate> fitting = candidates(t, points, i, lawful);
-    std::erase_if(fitting, [&](const Candidate& c) { return !explains(c, *used, lawful); });
+    std::vector<WrongReading> fitting = wrongReadings(t, points, i, lawful);
+    std::erase_if(fitting, [&](const WrongReading& c) { return !explains(c, *used, lawful); });
     if (!common) {
       common = std::move(fitting);
       continue;
     }
-    std::erase_if(*common, [&](const Candidate& c) {
+    std::erase_if(*common, [&](const WrongReading& c) {
       return std::none_of(fitting.begin(), fitting.end(),
-                          [&](const Candidate& other) { return other.pattern == c.pattern; });
+                          [&](const WrongReading& other) { return other.pattern == c.pattern; });
     });
   }
-  const Candidate* found = common && !common->empty() ? &common->front() : nullptr;
+  const WrongReading* found = common && !common->empty() ? &common->front() : nullptr;
   if (found == nullptr && farthest < kNearly) return false;  // explained by whoever asks next
   if (found != nullptr && !found->allow.empty() && farthest < 0.5) {
     anatomy.allow = found->allow;

@@ -15,8 +15,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostSeconds = 9.2e9;           // of 64-bit nanoseconds
 constexpr double kLargestId = 9007199254740992;  // 2^53: what a double counts up to
 
-[[noreturn]] void fail(const std::string& field, const std::string& expected,
-                       const std::string& found) {
+[[noreturn]] void failAt(const std::string& field, const std::string& expected,
+                         const std::string& found) {
   throw std::runtime_error(field + ": expected " + expected + ", found " + found);
 }
 
@@ -33,7 +33,7 @@ bool isNone(double id) {
 
 FeatureId idOf(double value, const std::string& field) {
   if (!(value >= 0.0 && value <= kLargestId) || value != std::floor(value)) {
-    fail(field, "whole numbers from 0 on", number(value));
+    failAt(field, "whole numbers from 0 on", number(value));
   }
   return static_cast<FeatureId>(value);
 }
@@ -41,7 +41,7 @@ FeatureId idOf(double value, const std::string& field) {
 void checkDistinct(std::vector<FeatureId> ids) {
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end()) fail("ids", "each id once", std::to_string(*twice) + " twice");
+  if (twice != ids.end()) failAt("ids", "each id once", std::to_string(*twice) + " twice");
 }
 
 Event eventOf(const std::string& word) {
@@ -52,7 +52,7 @@ Event eventOf(const std::string& word) {
     known.push_back(' ');
     known.append(eventName(event));
   }
-  fail("event", "one of" + known, '"' + word + '"');
+  failAt("event", "one of" + known, '"' + word + '"');
 }
 
 /// N, from x or else from P.
@@ -60,13 +60,13 @@ std::size_t stateSize(std::span<const double> x, bool has_x, std::span<const dou
   const auto root = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(P.size()))));
   const std::size_t size = has_x ? x.size() : root;
   if (size < 3 || size % 2 == 0) {
-    fail(has_x ? "x" : "P", "3 + 2 numbers a feature (x, y, heading, then x, y of each)",
-         std::to_string(size));
+    failAt(has_x ? "x" : "P", "3 + 2 numbers a feature (x, y, heading, then x, y of each)",
+           std::to_string(size));
   }
   if (P.size() != size * size && (P.size() != size || !has_x)) {
     const std::string side = std::to_string(size);
-    fail("P", side + "×" + side + (has_x ? " as x has " + side + " numbers" : std::string()),
-         std::to_string(P.size()) + " numbers");
+    failAt("P", side + "×" + side + (has_x ? " as x has " + side + " numbers" : std::string()),
+           std::to_string(P.size()) + " numbers");
   }
   return size;
 }
@@ -114,7 +114,7 @@ SnapshotPtr ArrayRun::next() {
 SnapshotPtr ArrayRun::read() {
   auto snapshot = std::make_shared<Snapshot>();
   const double time = arrays_.times.empty() ? static_cast<double>(step_) : arrays_.times[step_];
-  if (!(std::abs(time) < kMostSeconds)) fail("t", "a finite number of seconds", number(time));
+  if (!(std::abs(time) < kMostSeconds)) failAt("t", "a finite number of seconds", number(time));
   snapshot->time = std::chrono::nanoseconds(std::llround(1e9 * time));
   snapshot->sequence = step_;
   if (!arrays_.events.empty()) snapshot->event = eventOf(arrays_.events[step_]);
@@ -159,7 +159,7 @@ std::vector<int> ArrayRun::readIds(Snapshot& snapshot, std::span<const double> x
     places = places_.find(x, P, size);
     const bool named = !arrays_.names.empty();
     if (named && arrays_.names.size() < all) {
-      fail("ids", std::to_string(all) + ", one a feature", std::to_string(arrays_.names.size()));
+      failAt("ids", std::to_string(all) + ", one a feature", std::to_string(arrays_.names.size()));
     }
     for (const int place : places) {
       snapshot.ids.push_back(named ? idOf(arrays_.names[static_cast<std::size_t>(place)], "ids")
@@ -173,10 +173,10 @@ std::vector<int> ArrayRun::readIds(Snapshot& snapshot, std::span<const double> x
       const bool none = k >= ids.size() || isNone(ids[k]) || (ids[k] == 0.0 && padding);
       if (none && padding) continue;
       if (none || k >= all) {
-        fail("ids",
-             none ? "an id for the feature in place " + std::to_string(k + 1)
-                  : std::to_string(all) + " at most, one a feature",
-             none ? "none" : std::to_string(ids.size()));
+        failAt("ids",
+               none ? "an id for the feature in place " + std::to_string(k + 1)
+                    : std::to_string(all) + " at most, one a feature",
+               none ? "none" : std::to_string(ids.size()));
       }
       snapshot.ids.push_back(idOf(ids[k], "ids"));
       places.push_back(place);
@@ -197,8 +197,8 @@ void ArrayRun::readObserved(Snapshot& snapshot, const std::vector<int>& places, 
     return;
   }
   if (read.size() < all) {
-    fail("observed", std::to_string(all) + " truth values, one a feature",
-         std::to_string(read.size()));
+    failAt("observed", std::to_string(all) + " truth values, one a feature",
+           std::to_string(read.size()));
   }
   for (std::size_t k = 0; k < places.size(); ++k) {
     if (read[static_cast<std::size_t>(places[k])] != 0.0) {
@@ -211,7 +211,7 @@ void ArrayRun::readTruth(Snapshot& snapshot) {
   if (!arrays_.truth) return;
   const std::span<const double> pose = arrays_.truth->next();
   if (pose.size() != 3)
-    fail("true", "3 numbers a step (x, y, heading)", number(double(pose.size())));
+    failAt("true", "3 numbers a step (x, y, heading)", number(double(pose.size())));
   snapshot.truth = Truth{{pose[0], pose[1], pose[2]}, {}, {}};
 }
 

@@ -12,12 +12,12 @@
 namespace slamscope::slam {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{64} << 10U;
+constexpr std::size_t kInflateAtOnce = std::size_t{64} << 10U;
 
 class InflatedBytes : public Bytes {
  public:
   explicit InflatedBytes(std::unique_ptr<Bytes> packed)
-      : packed_(std::move(packed)), buffer_(kChunk) {
+      : packed_(std::move(packed)), buffer_(kInflateAtOnce) {
     if (inflateInit2(&zlib_, -MAX_WBITS) != Z_OK) throw std::runtime_error("zlib has no memory");
   }
   ~InflatedBytes() override { inflateEnd(&zlib_); }

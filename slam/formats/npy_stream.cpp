@@ -14,14 +14,14 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kBatch = 8192;  // numbers converted at a time
 
-[[noreturn]] void fail(const std::string& text) {
+[[noreturn]] void failHeader(const std::string& text) {
   throw std::runtime_error(text);
 }
 
 std::string field(const std::string& header, const char* pattern, const std::string& name) {
   std::smatch found;
   if (!std::regex_search(header, found, std::regex(pattern))) {
-    fail("expected " + name + " in the header of the array, found none");
+    failHeader("expected " + name + " in the header of the array, found none");
   }
   return found[1];
 }
@@ -63,14 +63,14 @@ Convert conversion(char kind, std::size_t size) {
 NpyStream::NpyStream(std::unique_ptr<Bytes> bytes) : bytes_(std::move(bytes)) {
   std::string start(8, '\0');
   fill(start);
-  if (start.substr(0, 6) != "\x93NUMPY") fail("expected an array in NumPy's format");
+  if (start.substr(0, 6) != "\x93NUMPY") failHeader("expected an array in NumPy's format");
   const int version = start[6];
   if (version < 1 || version > 3) {
-    fail("expected version 1 to 3 of NumPy's format, found " + std::to_string(version));
+    failHeader("expected version 1 to 3 of NumPy's format, found " + std::to_string(version));
   }
   std::uint32_t length = 0;
   fill({reinterpret_cast<char*>(&length), version == 1 ? 2U : 4U});
-  if (length > (1U << 20U)) fail("the header of the array is damaged");
+  if (length > (1U << 20U)) failHeader("the header of the array is damaged");
   std::string header(length, '\0');
   fill(header);
   parse(header);
@@ -79,11 +79,12 @@ NpyStream::NpyStream(std::unique_ptr<Bytes> bytes) : bytes_(std::move(bytes)) {
 void NpyStream::parse(const std::string& header) {
   // {'descr': '<f8', 'fortran_order': False, 'shape': (100, 3), }
   if (header.find("'descr': [") != header.npos) {
-    fail("expected numbers, found records of several fields: save x and P as arrays of their own");
+    failHeader(
+        "expected numbers, found records of several fields: save x and P as arrays of their own");
   }
   const std::string type = field(header, R"('descr':\s*'([^']*)')", "the type of numbers");
   if (type.find('O') != type.npos) {
-    fail(
+    failHeader(
         "an object array (pickled Python objects, which are not read): save with np.savez(..., "
         "x=..., P=...) as float arrays; pad with NaN");
   }
@@ -91,7 +92,7 @@ void NpyStream::parse(const std::string& header) {
   const std::string shape = field(header, R"('shape':\s*\(([^)]*)\))", "the shape");
   const std::regex digits(R"(\d+)");
   for (std::sregex_iterator k(shape.begin(), shape.end(), digits), end; k != end; ++k) {
-    if (k->str().size() > 15) fail("the shape of the array is damaged");
+    if (k->str().size() > 15) failHeader("the shape of the array is damaged");
     shape_.push_back(std::stoull(k->str()));
   }
   static_cast<void>(numbersIn(shape_));
@@ -99,22 +100,22 @@ void NpyStream::parse(const std::string& header) {
   if (reversed_) std::reverse(shape_.begin(), shape_.end());
   std::smatch parts;
   if (!std::regex_match(type, parts, std::regex(R"(([<>|=]?)([a-zA-Z])(\d{1,6}))"))) {
-    fail("expected numbers (float64), found type '" + type + "'");
+    failHeader("expected numbers (float64), found type '" + type + "'");
   }
   big_endian_ = parts[1] == ">";
   kind_ = parts[2].str().front();
   item_ = std::stoul(parts[3]) * (kind_ == 'U' ? 4 : 1);
   if (!isText() && conversion(kind_, item_) == nullptr) {
-    fail("expected numbers of type float64 or float32, found '" + type + "'");
+    failHeader("expected numbers of type float64 or float32, found '" + type + "'");
   }
 }
 
 void NpyStream::fill(std::span<char> buffer) {
-  if (bytes_->read(buffer) != buffer.size()) fail("it is cut off");
+  if (bytes_->read(buffer) != buffer.size()) failHeader("it is cut off");
 }
 
 void NpyStream::read(std::span<double> numbers) {
-  if (isText()) fail("expected numbers, found text");
+  if (isText()) failHeader("expected numbers, found text");
   const Convert convert_batch = conversion(kind_, item_);
   while (!numbers.empty()) {
     const std::span<double> batch = numbers.first(std::min(numbers.size(), kBatch));

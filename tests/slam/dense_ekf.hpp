@@ -48,7 +48,7 @@ class DenseEkf {
       k += 2;
     }
     const Eigen::MatrixXd S = H * P * H.transpose() + R;
-    const Eigen::MatrixXd K = P * H.transpose() * S.inverse();
+    const Eigen::MatrixXd K = S.llt().solve(H * P).transpose();
     x += K * innovation;
     x[2] = wrapAngle(x[2]);
     P = ((Eigen::MatrixXd::Identity(x.size(), x.size()) - K * H) * P).eval();

@@ -14,7 +14,7 @@ class InformationForm final : public EkfEquations {
 
   void updateMean(EkfState& state, const Correction& correction) override {
     const Eigen::MatrixXd H = denseH(correction, state.size());
-    const Eigen::MatrixXd HtRinv = H.transpose() * denseR(correction).inverse();
+    const Eigen::MatrixXd HtRinv = denseR(correction).llt().solve(H).transpose();
     const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(state.size(), state.size());
     const Eigen::MatrixXd Y = wholeP(state).llt().solve(I) + HtRinv * H;
     P_ = Y.llt().solve(I);

@@ -43,7 +43,7 @@ class JosephForm final : public EkfEquations {
   void updateCovariance(EkfState& state, const Correction& correction) override {
     const Eigen::MatrixXd H = denseH(correction, state.size());
     const Eigen::MatrixXd P = wholeP(state);
-    const Eigen::MatrixXd K = P * H.transpose() * correction.S.inverse();
+    const Eigen::MatrixXd K = correction.S.llt().solve(H * P).transpose();
     const Eigen::MatrixXd I_KH = Eigen::MatrixXd::Identity(state.size(), state.size()) - K * H;
     const Eigen::MatrixXd updated =
         I_KH * P * I_KH.transpose() + K * denseR(correction) * K.transpose();
