@@ -17,16 +17,20 @@ namespace {
 
 std::atomic<bool> g_interrupted = false;  // NOLINT: what a signal handler can reach
 
-/// Ctrl-C ends the film as its own end would, so that outputs are whole.
+/// Ctrl-C ends the film as its own end would, so that outputs are whole; a second one ends at once.
 void endOnInterrupt() {
-  std::signal(SIGINT, [](int) { g_interrupted = true; });
-  std::signal(SIGTERM, [](int) { g_interrupted = true; });
+  const auto end = [](int signal) {
+    g_interrupted = true;
+    std::signal(signal, SIG_DFL);
+  };
+  std::signal(SIGINT, end);
+  std::signal(SIGTERM, end);
 }
 
-void runHeadless(Viewer& viewer) {
+Viewer::Ending runHeadless(Viewer& viewer) {
   Progress progress("drawing");
   const auto start = std::chrono::steady_clock::now();
-  while (!g_interrupted && viewer.next()) {
+  while (viewer.next()) {
     if (viewer.paced()) {
       std::this_thread::sleep_until(start +
                                     std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -40,7 +44,9 @@ void runHeadless(Viewer& viewer) {
     } else {
       progress.show(frames + "  " + viewer.status());
     }
+    if (g_interrupted) return Viewer::Ending::user_quit;
   }
+  return Viewer::Ending::input_ended;
 }
 
 void reportValidation(const Viewer& viewer) {
@@ -57,13 +63,10 @@ void reportValidation(const Viewer& viewer) {
 void runViewer(Viewer& viewer, const ViewerRun& run) {
   endOnInterrupt();
   for (const std::string& note : viewer.notes()) spdlog::info("{}", note);
-  if (run.window) {
-    runInWindow(viewer, run.title, run.screen);
-  } else {
-    runHeadless(viewer);
-  }
+  const Viewer::Ending ending =
+      run.window ? runInWindow(viewer, run.title, run.screen, g_interrupted) : runHeadless(viewer);
   spdlog::info("{} frames, {}", viewer.framesShown(), viewer.status());
-  viewer.finish();
+  viewer.finish(ending);
   for (const auto& file : run.files) {
     if (!file.empty()) spdlog::info("wrote {}", file.string());
   }

@@ -35,7 +35,7 @@ Film alarmFilm(const std::string& fault) {
   options.report = folder / "report.json";
   Monitor monitor(options);
   while (monitor.next()) monitor.draw();
-  monitor.finish();
+  monitor.finish(Viewer::Ending::input_ended);
   Film result{.frames = nlohmann::json::parse(std::ifstream(options.report))["frames"],
               .last = cv::imread(options.picture.string())};
   fs::remove_all(folder);

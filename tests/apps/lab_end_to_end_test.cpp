@@ -37,7 +37,7 @@ Run film(double opacity) {
   options.lab_truth = folder / "truth.json";
   Monitor monitor(options);
   while (monitor.next()) monitor.draw();
-  monitor.finish();
+  monitor.finish(Viewer::Ending::input_ended);
   EXPECT_TRUE(monitor.gpu()->validationMessages().empty());
   Run run{.report = nlohmann::json::parse(std::ifstream(options.report)),
           .truth = nlohmann::json::parse(std::ifstream(options.lab_truth)),

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
 """monitor and demo: pictures without a display."""
+import json
 import os
 import pathlib
 import re
+import shutil
+import signal
 import socket
 import subprocess
 import sys
 import time
+import unittest
 
 import program
 
@@ -151,6 +155,38 @@ class Films(program.InAFolder):
         self.assertEqual(status, 0, errors)
         self.assertGreater((self.folder / "o.mp4").stat().st_size, 1000)
         self.assertEqual([f.name for f in self.folder.iterdir()], ["o.mp4"])
+
+
+@unittest.skipUnless(shutil.which("Xvfb"), "needs Xvfb")
+class Window(program.InAFolder):
+    """On a display of its own, without a screen."""
+
+    def setUp(self):
+        super().setUp()
+        ours, theirs = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(theirs), "-screen", "0", "1280x800x24"],
+                                       pass_fds=[theirs], stderr=subprocess.DEVNULL)
+        os.close(theirs)
+        with os.fdopen(ours) as number:
+            self.display = {**NO_DISPLAY, "DISPLAY": ":" + number.readline().strip()}
+
+    def tearDown(self):
+        self.server.terminate()
+        self.server.wait()
+        super().tearDown()
+
+    def test_an_interrupt_closes_it_and_leaves_whole_outputs(self):
+        for verb in ("monitor", "hmd"):
+            with self.subTest(verb):
+                run = subprocess.Popen([program.PROGRAM, verb, "--window", "--report", verb + ".json"],
+                                       cwd=self.folder, env=self.display, stderr=subprocess.PIPE, text=True)
+                time.sleep(8)
+                self.assertIsNone(run.poll(), "ended by itself")
+                run.send_signal(signal.SIGINT)
+                _, said = run.communicate(timeout=60)
+                self.assertEqual(run.returncode, 0, said)
+                report = json.loads((self.folder / (verb + ".json")).read_text())
+                self.assertGreater(len(report["frames"]), 0)
 
 
 class Hmd(program.InAFolder):

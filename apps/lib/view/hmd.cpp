@@ -161,8 +161,8 @@ bool Hmd::next() {
 void Hmd::draw() {
   state_->draw();
 }
-void Hmd::finish() {
-  state_->finish();
+void Hmd::finish(Ending ending) {
+  state_->finish(ending);
 }
 const engine::Image& Hmd::drawn() const {
   return state_->picture;

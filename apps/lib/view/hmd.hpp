@@ -18,7 +18,7 @@ class Hmd final : public Viewer {
   bool next() override;
   void draw() override;
   void presented() override;
-  void finish() override;
+  void finish(Ending ending) override;
 
   [[nodiscard]] const engine::Image& drawn() const override;
   [[nodiscard]] Choices& choices() override;

@@ -55,15 +55,16 @@ HmdFrame Hmd::State::frameReport() const {
   return frame;
 }
 
-void Hmd::State::finish() {
-  if (!ever_shown && !setup.source->live() && (setup.lab == nullptr || frame_count > 0)) {
+void Hmd::State::finish(Viewer::Ending ending) {
+  if (!options.view.report.empty()) report.write(options.view.report);
+  const bool in_vain = ending == Viewer::Ending::input_ended && !setup.source->live();
+  if (in_vain && !ever_shown && (setup.lab == nullptr || frame_count > 0)) {
     throw std::runtime_error(options.view.camera + ": the map was never found in " +
                              std::to_string(frame_count) + " frames (" +
                              head.statusLines().front() + ")");
   }
   if (output) output->finish();
   if (!options.view.picture.empty()) writePicture(options.view.picture, picture);
-  if (!options.view.report.empty()) report.write(options.view.report);
 }
 
 void Hmd::presented() {

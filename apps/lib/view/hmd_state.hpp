@@ -32,7 +32,7 @@ struct Hmd::State {
   void draw();
   void hand();
   [[nodiscard]] HmdFrame frameReport() const;
-  void finish();
+  void finish(Viewer::Ending ending);
 
   HmdOptions options;
   std::optional<RunTruth> truth;

@@ -14,8 +14,8 @@ bool Monitor::next() {
 void Monitor::draw() {
   state_->draw();
 }
-void Monitor::finish() {
-  state_->finish();
+void Monitor::finish(Ending ending) {
+  state_->finish(ending);
 }
 const Monitor::Picture& Monitor::picture() const {
   return state_->picture;

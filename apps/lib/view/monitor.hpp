@@ -17,7 +17,7 @@ namespace slamscope::apps {
 ///
 ///   Monitor monitor(options);
 ///   while (monitor.next()) monitor.draw();
-///   monitor.finish();
+///   monitor.finish(Viewer::Ending::input_ended);
 ///
 /// The paper's render cycle (section 3.1): take a frame and where it was taken from, take the
 /// newest state of SLAM, draw.
@@ -29,7 +29,7 @@ class Monitor final : public Viewer {
 
   bool next() override;
   void draw() override;
-  void finish() override;
+  void finish(Ending ending) override;
 
   /// What draw() draws, for a window that presents it itself.
   struct Picture {

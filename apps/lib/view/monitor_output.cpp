@@ -66,8 +66,10 @@ FrameReport Monitor::State::frameReport() const {
   return frame;
 }
 
-void Monitor::State::finish() {
-  if (!ever_registered && !setup.source->live() && (!setup.lab || frame_count > 0)) {
+void Monitor::State::finish(Viewer::Ending ending) {
+  if (!options.report.empty()) report.write(options.report);
+  const bool in_vain = ending == Viewer::Ending::input_ended && !setup.source->live();
+  if (in_vain && !ever_registered && (!setup.lab || frame_count > 0)) {
     throw std::runtime_error(options.camera + ": never registered in " +
                              std::to_string(frame_count) + " frames (" + registration.status() +
                              ")");
@@ -78,7 +80,6 @@ void Monitor::State::finish() {
     if (!start_picture) throw std::runtime_error("--compare: no ellipsoid was ever drawn");
     writePicture(options.compare, sideBySide(*start_picture, pixels.front()));
   }
-  if (!options.report.empty()) report.write(options.report);
 }
 
 }  // namespace slamscope::apps

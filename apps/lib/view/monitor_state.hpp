@@ -36,7 +36,7 @@ struct Monitor::State {
   void hand();
   void compare();
   [[nodiscard]] FrameReport frameReport() const;
-  void finish();
+  void finish(Viewer::Ending ending);
 
   [[nodiscard]] const std::optional<tracking::RegistrationResult>& registered() const {
     return registration.result();

@@ -17,7 +17,7 @@ namespace slamscope::apps {
 /// of a head (Hmd).
 ///
 ///   while (viewer.next()) viewer.draw();
-///   viewer.finish();
+///   viewer.finish(Viewer::Ending::input_ended);
 class Viewer {
  public:
   Viewer() = default;
@@ -32,9 +32,10 @@ class Viewer {
   virtual void draw() = 0;
   /// What was drawn stands before the user's eyes now.
   virtual void presented() {}
+  enum class Ending { input_ended, user_quit };
   /// Closes the outputs. Throws std::runtime_error where a finite input never showed the tags that
-  /// are needed.
-  virtual void finish() = 0;
+  /// are needed; the report, which says what was seen instead, is written all the same.
+  virtual void finish(Ending ending) = 0;
 
   [[nodiscard]] virtual const engine::Image& drawn() const = 0;
 

@@ -47,8 +47,9 @@ void handle(const engine::Input& input, KeyCommands& keys) {
 
 }  // namespace
 
-void runInWindow(Viewer& viewer, const std::string& title, std::optional<int> screen) {
-  if (!viewer.next()) return;
+Viewer::Ending runInWindow(Viewer& viewer, const std::string& title, std::optional<int> screen,
+                           const std::atomic<bool>& interrupted) {
+  if (!viewer.next()) return Viewer::Ending::input_ended;
   viewer.draw();
   engine::Window window(viewer.gpu(), {.title = title,
                                        .width = viewer.drawn().width,
@@ -59,7 +60,7 @@ void runInWindow(Viewer& viewer, const std::string& title, std::optional<int> sc
   keys.say(KeyCommands::kHelp);
   Pace pace;
   bool ended = false;
-  while (window.open() && !keys.quit()) {
+  while (window.open() && !keys.quit() && !interrupted) {
     handle(window.poll(), keys);
     const double shown = viewer.secondsShown();
     const bool step = keys.takeStep();
@@ -85,6 +86,7 @@ void runInWindow(Viewer& viewer, const std::string& title, std::optional<int> sc
       keys.say("wrote " + name);
     }
   }
+  return ended ? Viewer::Ending::input_ended : Viewer::Ending::user_quit;
 }
 
 }  // namespace slamscope::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <string>
 
@@ -8,13 +9,16 @@
 
 namespace slamscope::apps {
 
-/// Shows a viewer in a window until the user closes it or presses q. At the end of the input the
-/// last picture stays. Returns when the window is closed.
+/// Shows a viewer in a window until the user closes it or presses q, or `interrupted` becomes true
+/// (Ctrl-C). At the end of the input the last picture stays. Returns when the window is closed,
+/// saying whether the input had ended.
 ///
 /// Keys: m mode, a axis, + and - gain, e covariance rings, l labels, g legend, f fade, space pause,
 /// . one frame, s screenshot, h keys, q or Esc quit.
 ///
 /// `screen`: full screen on that one of the list of monitors.
-void runInWindow(Viewer& viewer, const std::string& title, std::optional<int> screen = {});
+[[nodiscard]] Viewer::Ending runInWindow(Viewer& viewer, const std::string& title,
+                                         std::optional<int> screen,
+                                         const std::atomic<bool>& interrupted);
 
 }  // namespace slamscope::apps
