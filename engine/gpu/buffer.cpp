@@ -22,7 +22,8 @@ void Buffer::create() {
   buffer_ = {core_->device(), vk::BufferCreateInfo{.size = bytes_, .usage = usage_}};
   memory_ = allocate(*core_, buffer_.getMemoryRequirements(), use_);
   buffer_.bindMemory(*memory_, 0);
-  mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+  if (use_ != MemoryUse::kDevice)
+    mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
 }
 
 }  // namespace slamscope::engine::gpu

@@ -128,6 +128,7 @@ const gpu::DeviceImage& Frame::colour() const {
 FrameStats Frame::stats() const {
   FrameStats stats = parts_->stats;
   stats.gpu_ms = parts_->timestamps.elapsedMs();
+  stats.pairs = parts_->renderer.pairStats();
   return stats;
 }
 

@@ -6,10 +6,11 @@ namespace slamscope::engine {
 Renderer::Renderer(const gpu::Core& core, int views)
     : frame_buffer_(core, sizeof(interop::FrameData), vk::BufferUsageFlagBits::eUniformBuffer,
                     gpu::MemoryUse::kUpload),
-      frame_set_(core, {{.binding = 0,
-                         .type = vk::DescriptorType::eUniformBuffer,
-                         .stages = vk::ShaderStageFlagBits::eVertex |
-                                   vk::ShaderStageFlagBits::eFragment}}),
+      frame_set_(core,
+                 {{.binding = 0,
+                   .type = vk::DescriptorType::eUniformBuffer,
+                   .stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment |
+                             vk::ShaderStageFlagBits::eCompute}}),
       setup_{.core = core,
              .frame_layout = frame_set_.layout(),
              .view_mask = (1U << static_cast<unsigned>(views)) - 1U},
@@ -33,6 +34,11 @@ int Renderer::update(const ViewSet& views, const Scene& scene) {
   lines_.update(scene.lines, views, not_drawn);
   arrows_.update(scene.arrows, views, not_drawn);
   cones_.update(scene.cones, views, not_drawn);
+  some_pairs_ = scene.pairs && scene.pairs->points;
+  if (some_pairs_) {
+    if (!pairs_) pairs_.emplace(setup_);
+    pairs_->update(*scene.pairs, views);
+  }
   ellipsoids_.update(scene.ellipsoids, views, not_drawn);
   labels_.update(scene.labels, views, not_drawn);
   rects_.update(scene.rects, not_drawn);
@@ -47,6 +53,7 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
                       FrameStats& stats) {
   background_.recordUpload(commands);
   letter_texture_->recordUpload(commands);
+  if (some_pairs_) pairs_->recordChoice(commands, frame_set_.handle());
 
   const vk::RenderingAttachmentInfo colour = {
       .imageView = target.colour,
@@ -80,12 +87,18 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
   lines_.record(context);
   arrows_.record(context);
   cones_.recordInside(context);
+  if (some_pairs_) pairs_->record(context);
   ellipsoids_.record(context);
   cones_.recordEdges(context);
   labels_.record(context);
   rects_.record(context);
   texts_.record(context);
   commands.endRendering();
+  if (some_pairs_) pairs_->recordReadback(commands);
+}
+
+FrameStats::Pairs Renderer::pairStats() const {
+  return some_pairs_ ? pairs_->stats() : FrameStats::Pairs{};
 }
 
 }  // namespace slamscope::engine

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "engine/render/arrows.hpp"
 #include "engine/render/background.hpp"
@@ -9,6 +10,7 @@
 #include "engine/render/ellipsoids.hpp"
 #include "engine/render/letters.hpp"
 #include "engine/render/lines.hpp"
+#include "engine/render/pairs.hpp"
 #include "engine/render/rects.hpp"
 
 namespace slamscope::engine {
@@ -33,6 +35,8 @@ class Renderer {
   /// and gpu::depthTested().
   void record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
               FrameStats& stats);
+  /// Of the frame last waited for.
+  [[nodiscard]] FrameStats::Pairs pairStats() const;
 
  private:
   gpu::Buffer frame_buffer_;
@@ -44,6 +48,8 @@ class Renderer {
   LinePass lines_;
   ArrowPass arrows_;
   ConePass cones_;
+  std::optional<PairPass> pairs_;  ///< from the first scene on that has some
+  bool some_pairs_ = false;
   EllipsoidPass ellipsoids_;
   std::shared_ptr<LetterTexture> letter_texture_;
   LetterPass labels_;

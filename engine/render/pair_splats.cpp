@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/pair_splats.hpp"
+
+#include "engine/gpu/barrier.hpp"
+#include "engine/render/shader_code.hpp"
+
+namespace slamscope::engine {
+
+namespace {
+
+constexpr std::uint32_t kPairsOfAGroup = 64 * 8;  // as in pairs_splat.comp
+constexpr std::uint32_t kSlices = 8;
+constexpr std::uint32_t kLargeGroups = 16;  // that go over the list of large ones
+constexpr std::size_t kBytesOfAPixel = 2 * sizeof(std::uint64_t);
+
+std::vector<vk::DescriptorSetLayout> splatSets(const PassSetup& setup, const PairData& data) {
+  return {setup.frame_layout, data.set().layout()};
+}
+
+gpu::PipelineInfo resolveInfo(const PassSetup& setup, const PairData& data, bool lit) {
+  return {.vertex = shaderCode("background_vert"),
+          .fragment = shaderCode("pairs_resolve_frag"),
+          .sets = splatSets(setup, data),
+          .view_mask = setup.view_mask,
+          .depth_test = true,
+          .depth_write = true,
+          .constants = {lit ? VK_TRUE : VK_FALSE}};
+}
+
+}  // namespace
+
+PairSplats::PairSplats(const PassSetup& setup, const PairData& data)
+    : visibility_(setup.core, 0,
+                  vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst,
+                  gpu::MemoryUse::kDevice),
+      large_(setup.core, 0, vk::BufferUsageFlagBits::eStorageBuffer, gpu::MemoryUse::kDevice),
+      small_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_FALSE}),
+      large_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_TRUE}),
+      resolve_{gpu::Pipeline(setup.core, resolveInfo(setup, data, false)),
+               gpu::Pipeline(setup.core, resolveInfo(setup, data, true))} {}
+
+void PairSplats::update(const PairData& data, vk::Extent2D extent) {
+  bytes_ = std::size_t{extent.width} * extent.height * data.data().views * kBytesOfAPixel;
+  visibility_.reserve(bytes_);
+  large_.reserve(std::size_t{data.pairCount()} * data.data().views * sizeof(std::uint32_t));
+  data.bind(PairData::kVisibility, visibility_);
+  data.bind(PairData::kList, large_);
+}
+
+void PairSplats::recordSplats(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
+                              const PairData& data) const {
+  commands.fillBuffer(visibility_.handle(), 0, bytes_, ~0U);
+  barrier(commands, gpu::copyTarget(), gpu::computed());
+  const std::array sets = {frame_set, data.set().handle()};
+  small_pass_.bind(commands, sets);
+  commands.dispatch((data.pairCount() + kPairsOfAGroup - 1) / kPairsOfAGroup, 1, 1);
+  barrier(commands, gpu::computed(), gpu::computed());
+  large_pass_.bind(commands, sets);
+  commands.dispatch(kLargeGroups, kSlices, 1);
+  barrier(commands, gpu::computed(), gpu::readByAll());
+}
+
+void PairSplats::record(const FrameContext& context, const PairData& data) const {
+  context.draw("pairs", resolve_[context.lit ? 1 : 0], data.set().handle(), 4, 1);
+}
+
+}  // namespace slamscope::engine

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Splats the ellipsoids of all chosen pairs into the visibility buffer: for each pixel of each view
+// the nearest of those that cover it whole, and the nearest of those whose edge runs through it.
+// Small ones are done by one lane each; the others are put on a list for the second dispatch, in
+// which kSlices work groups share each of them.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+#include "common/pair_wanted.glsl"
+
+layout(constant_id = 0) const bool kLarge = false;  // the second dispatch
+layout(local_size_x = 64) in;
+
+// Depth's bits above the pair's number: the least is the nearest, and of equally near ones the
+// first. Two entries a pixel, views one after another.
+layout(set = 1, binding = 8, scalar) buffer Visibility { uint64_t nearest[]; };
+layout(set = 1, binding = 8, scalar) readonly buffer VisibilityWords { uint nearest_words[]; };
+layout(set = 1, binding = 5, scalar) buffer Large { uint large[]; };  // number, view
+
+const uint kRun = 8u;          // pairs a lane
+const int kLargestBox = 1024;  // px², for one lane
+const uint kSlices = 8u;
+
+// What depth and coverage of a pixel need: the conic, and depth = scale (a·D − √F) / |D|² with
+// numerator and denominator as polynomials of the pixel.
+struct Rays {
+  Conic conic;
+  vec2 reference;
+  float scale;
+  vec3 aD;            // a·D: constant, per u, per v
+  vec3 DD0;           // |D|²: constant, half of the slopes
+  vec3 DD2;           // uu, uv, vv
+};
+Rays raysOf(Seen e) {
+  return Rays(e.conic, e.reference, e.scale, vec3(dot(e.a, e.D0), dot(e.a, e.Du), dot(e.a, e.Dv)),
+              vec3(dot(e.D0, e.D0), dot(e.D0, e.Du), dot(e.D0, e.Dv)),
+              vec3(dot(e.Du, e.Du), dot(e.Du, e.Dv), dot(e.Dv, e.Dv)));
+}
+
+void splatPixel(Rays r, ivec2 pixel, uint base, uint width, uint number) {
+  const vec2 x = vec2(pixel) + 0.5 - r.reference;
+  const ConicPoint at = evaluate(r.conic, x);
+  const float aD = r.aD.x + dot(r.aD.yz, x);
+  const vec2 slope = r.DD0.yz + vec2(r.DD2.x * x.x + r.DD2.y * x.y, r.DD2.y * x.x + r.DD2.z * x.y);
+  const float DD = r.DD0.x + dot(r.DD0.yz + slope, x);
+  const float depth = r.scale * (aD - sqrt(max(at.f, 0.0))) / DD;
+  if (!(depth >= frame.near) || !touchesPixel(r.conic, at)) return;
+  const uint layer = coversPixel(r.conic, at) ? 0u : 1u;
+  const uint entry = base + 2u * (uint(pixel.y) * width + uint(pixel.x)) + layer;
+  const uint bits = floatBitsToUint(depth);
+  // Most are hidden: a plain look first. Entries only ever fall, so an old one does no harm.
+  if (bits > nearest_words[2u * entry + 1u]) return;
+  atomicMin(nearest[entry], uint64_t(bits) << 32 | uint64_t(number));
+}
+
+void splatSmall(uint number, inout Tally tally) {
+  const Pair pair = pairAt(number);
+  if (!pair.wanted || !chosenByArea(pair.P_d)) return;
+  ++tally.chosen;
+  const Solid solid = solidOf(pair);
+  if (!solid.finite) {
+    ++tally.not_finite;
+    return;
+  }
+  bool in_picture = false;
+  for (uint view = 0u; view < pairs.views; ++view) {
+    const Seen e = seenBy(view, solid);
+    Box box = boxOf(e);
+    if (empty(box)) continue;
+    in_picture = true;
+    const ivec2 size = box.high - box.low + 1;
+    if (size.x * size.y > kLargestBox) {
+      large[atomicAdd(counts.large, 1u)] = number * 2u + view;
+      continue;
+    }
+    const uint width = uint(frame.views[view].size.x);
+    const uint base = 2u * view * width * uint(frame.views[view].size.y);
+    const Rays rays = raysOf(e);
+    ivec2 at = box.low;
+    while (at.y <= box.high.y) {
+      splatPixel(rays, at, base, width, number);
+      ++at.x;
+      if (at.x > box.high.x) at = ivec2(box.low.x, at.y + 1);
+    }
+  }
+  if (in_picture) ++tally.drawn;
+}
+
+// Work group (i, s): rows s, s + kSlices … of the i-th large one.
+void splatLarge() {
+  for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
+    const uint number = large[i] >> 1;
+    const uint view = large[i] & 1u;
+    const Seen e = seenBy(view, solidOf(pairAt(number)));
+    const Box box = boxOf(e);
+    const uint width = uint(frame.views[view].size.x);
+    const uint base = 2u * view * width * uint(frame.views[view].size.y);
+    const Rays rays = raysOf(e);
+    for (int y = box.low.y + int(gl_WorkGroupID.y); y <= box.high.y; y += int(kSlices)) {
+      for (int x = box.low.x + int(gl_LocalInvocationID.x); x <= box.high.x; x += 64) {
+        splatPixel(rays, ivec2(x, y), base, width, number);
+      }
+    }
+  }
+}
+
+void main() {
+  if (kLarge) {
+    splatLarge();
+    return;
+  }
+  Tally tally = noTally();
+  const uint first = gl_WorkGroupID.x * 64u * kRun + gl_LocalInvocationID.x;
+  for (uint k = 0u; k < kRun; ++k) {
+    const uint number = first + 64u * k;
+    if (number < pairs.pairs) splatSmall(number, tally);
+  }
+  add(tally);
+}
