@@ -26,7 +26,7 @@ vec4 seen(sampler2DArray picture, sampler2DArray map, uint kind) {
 }
 
 void main() {
-  const uint kind = frame.views[gl_ViewIndex].background;
+  const uint kind = VIEW(background);
   vec4 texel;
   if (gl_ViewIndex == 0) {
     texel = seen(picture0, map0, kind);

@@ -14,6 +14,6 @@ layout(set = 1, binding = 0, scalar) readonly buffer Instances { EllipsoidGlyph 
 
 void main() {
   const EllipsoidGlyph e = ellipsoids[gl_InstanceIndex];
-  const mat3 R = frame.views[gl_ViewIndex].R_eye_shared;
+  const mat3 R = VIEW(R_eye_shared);
   emitQuad(seen(eyeFromShared(e.centre), R * mat3(e.axis0, e.axis1, e.axis2)), e.colour);
 }

@@ -15,6 +15,6 @@ layout(set = 1, binding = 5, scalar) readonly buffer Chosen { uint chosen[]; };
 
 void main() {
   const Solid s = solidOf(pairAt(chosen[gl_InstanceIndex]));
-  const mat3 R = frame.views[gl_ViewIndex].R_eye_shared;
+  const mat3 R = VIEW(R_eye_shared);
   emitQuad(seen(eyeFromShared(s.centre), R * mat3(s.axis0, s.axis1, s.axis2)), pairs.colour);
 }

@@ -19,10 +19,11 @@ void main() {
   const uint run = gl_GlobalInvocationID.x;
   const uint first = run * kRun;
   if (first >= pairs.pairs) return;
+  const uint least_key = counts.least_key;
   uint place = kWrite ? runs[run] : 0u;
   Tally tally = noTally();
   for (uint number = first; number < min(first + kRun, pairs.pairs); ++number) {
-    if (!wanted(number, tally)) continue;
+    if (!wanted(number, least_key, tally)) continue;
     if (kWrite) chosen[place] = number;
     ++place;
   }

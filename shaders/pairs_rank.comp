@@ -14,18 +14,17 @@ layout(local_size_x = 64) in;
 layout(set = 1, binding = 4, scalar) buffer Counts { PairsCounts counts; };
 layout(set = 1, binding = 7, scalar) buffer Histogram { uint histogram[]; };
 
-const uint kRun = 64u;
-
 void count() {
-  const uint first = gl_WorkGroupID.x * 64u * kRun + gl_LocalInvocationID.x;
-  for (uint k = 0u; k < kRun; ++k) {
+  const uint settled = counts.least_key;
+  const uint first = gl_WorkGroupID.x * 64u * pairs.run + gl_LocalInvocationID.x;
+  for (uint k = 0u; k < pairs.run; ++k) {
     const uint number = first + 64u * k;
     if (number >= pairs.pairs) break;
     const Pair pair = pairAt(number);
     const float area = areaOf(pair.P_d);
     if (!pair.wanted || !(area >= pairs.least_area)) continue;
     const uint key = floatBitsToUint(area);
-    const bool same = kShift == 24u || (key >> (kShift + 8u)) == (counts.least_key >> (kShift + 8u));
+    const bool same = kShift == 24u || (key >> (kShift + 8u)) == (settled >> (kShift + 8u));
     if (same) atomicAdd(histogram[key >> kShift & 255u], 1u);
   }
 }

@@ -12,7 +12,7 @@
 
 // As pairs_splat.comp: (number, depth) of what covers the pixel whole, then of what has its edge
 // in it; all bits set where there is nothing.
-layout(set = 1, binding = 8, scalar) readonly buffer Visibility { uvec4 nearest[]; };
+layout(set = 1, binding = 10) uniform usamplerBuffer nearest;
 
 layout(location = 0) out vec4 result;
 
@@ -20,14 +20,14 @@ const float kPlain = 0.8;  // how bright a lit glyph is on average
 
 void main() {
   const uvec2 pixel = uvec2(gl_FragCoord.xy);
-  const uvec2 size = uvec2(frame.views[gl_ViewIndex].size);
-  const uvec4 entry = nearest[(gl_ViewIndex * size.y + pixel.y) * size.x + pixel.x];
+  const uvec2 size = uvec2(VIEW(size));
+  const uvec4 entry = texelFetch(nearest, int((gl_ViewIndex * size.y + pixel.y) * size.x + pixel.x));
   const bool anything = min(entry.y, entry.w) != ~0u;
   const bool edge = entry.w < entry.y;
   const uint number = anything ? (edge ? entry.z : entry.x) : 0u;
 
   const Solid s = solidOf(pairAt(number));
-  const mat3 R = frame.views[gl_ViewIndex].R_eye_shared;
+  const mat3 R = VIEW(R_eye_shared);
   const Seen e = seen(eyeFromShared(s.centre), R * mat3(s.axis0, s.axis1, s.axis2));
   const vec2 x = gl_FragCoord.xy - e.reference;
   const ConicPoint at = evaluate(e.conic, x);

@@ -16,10 +16,9 @@ layout(local_size_x = 64) in;
 // Depth's bits above the pair's number: the least is the nearest, and of equally near ones the
 // first. Two entries a pixel, views one after another.
 layout(set = 1, binding = 8, scalar) buffer Visibility { uint64_t nearest[]; };
-layout(set = 1, binding = 8, scalar) readonly buffer VisibilityWords { uint nearest_words[]; };
+layout(set = 1, binding = 9) uniform usamplerBuffer nearest_words;  // the same memory
 layout(set = 1, binding = 5, scalar) buffer Large { uint large[]; };  // number, view
 
-const uint kRun = 8u;          // pairs a lane
 const int kLargestBox = 1024;  // px², for one lane
 const uint kSlices = 8u;
 
@@ -51,13 +50,13 @@ void splatPixel(Rays r, ivec2 pixel, uint base, uint width, uint number) {
   const uint entry = base + 2u * (uint(pixel.y) * width + uint(pixel.x)) + layer;
   const uint bits = floatBitsToUint(depth);
   // Most are hidden: a plain look first. Entries only ever fall, so an old one does no harm.
-  if (bits > nearest_words[2u * entry + 1u]) return;
+  if (bits > texelFetch(nearest_words, int(2u * entry + 1u)).x) return;
   atomicMin(nearest[entry], uint64_t(bits) << 32 | uint64_t(number));
 }
 
-void splatSmall(uint number, inout Tally tally) {
+void splatSmall(uint number, uint least_key, inout Tally tally) {
   const Pair pair = pairAt(number);
-  if (!pair.wanted || !chosenByArea(pair.P_d)) return;
+  if (!pair.wanted || !chosenByArea(pair.P_d, least_key)) return;
   ++tally.chosen;
   const Solid solid = solidOf(pair);
   if (!solid.finite) {
@@ -75,8 +74,8 @@ void splatSmall(uint number, inout Tally tally) {
       large[atomicAdd(counts.large, 1u)] = number * 2u + view;
       continue;
     }
-    const uint width = uint(frame.views[view].size.x);
-    const uint base = 2u * view * width * uint(frame.views[view].size.y);
+    const uint width = uint(VIEW(size).x);
+    const uint base = 2u * view * width * uint(VIEW(size).y);
     const Rays rays = raysOf(e);
     ivec2 at = box.low;
     while (at.y <= box.high.y) {
@@ -95,8 +94,8 @@ void splatLarge() {
     const uint view = large[i] & 1u;
     const Seen e = seenBy(view, solidOf(pairAt(number)));
     const Box box = boxOf(e);
-    const uint width = uint(frame.views[view].size.x);
-    const uint base = 2u * view * width * uint(frame.views[view].size.y);
+    const uint width = uint(VIEW(size).x);
+    const uint base = 2u * view * width * uint(VIEW(size).y);
     const Rays rays = raysOf(e);
     for (int y = box.low.y + int(gl_WorkGroupID.y); y <= box.high.y; y += int(kSlices)) {
       for (int x = box.low.x + int(gl_LocalInvocationID.x); x <= box.high.x; x += 64) {
@@ -111,11 +110,12 @@ void main() {
     splatLarge();
     return;
   }
+  const uint least_key = counts.least_key;
   Tally tally = noTally();
-  const uint first = gl_WorkGroupID.x * 64u * kRun + gl_LocalInvocationID.x;
-  for (uint k = 0u; k < kRun; ++k) {
+  const uint first = gl_WorkGroupID.x * 64u * pairs.run + gl_LocalInvocationID.x;
+  for (uint k = 0u; k < pairs.run; ++k) {
     const uint number = first + 64u * k;
-    if (number < pairs.pairs) splatSmall(number, tally);
+    if (number < pairs.pairs) splatSmall(number, least_key, tally);
   }
   add(tally);
 }

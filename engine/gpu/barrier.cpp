@@ -30,13 +30,14 @@ Use depthTested() {
           Layout::eDepthAttachmentOptimal};
 }
 Use computed() {
-  return {Stage::eComputeShader, Access::eShaderStorageRead | Access::eShaderStorageWrite};
+  return {Stage::eComputeShader,
+          Access::eShaderSampledRead | Access::eShaderStorageRead | Access::eShaderStorageWrite};
 }
 Use readByAll() {
   return {Stage::eComputeShader | Stage::eVertexShader | Stage::eFragmentShader |
               Stage::eDrawIndirect | Stage::eTransfer,
-          Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead |
-              Access::eTransferRead};
+          Access::eShaderSampledRead | Access::eShaderStorageRead | Access::eShaderStorageWrite |
+              Access::eIndirectCommandRead | Access::eTransferRead};
 }
 Use presented() {
   return {Stage::eBottomOfPipe, {}, Layout::ePresentSrcKHR};

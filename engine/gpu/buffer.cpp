@@ -18,6 +18,11 @@ bool Buffer::reserve(std::size_t bytes) {
   return true;
 }
 
+vk::raii::BufferView Buffer::texels(vk::Format format) const {
+  return {core_->device(),
+          vk::BufferViewCreateInfo{.buffer = *buffer_, .format = format, .range = VK_WHOLE_SIZE}};
+}
+
 void Buffer::create() {
   buffer_ = {core_->device(), vk::BufferCreateInfo{.size = bytes_, .usage = usage_}};
   memory_ = allocate(*core_, buffer_.getMemoryRequirements(), use_);

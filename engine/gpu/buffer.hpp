@@ -18,6 +18,9 @@ class Buffer {
   /// then descriptors must be written again. The device must not be using it.
   bool reserve(std::size_t bytes);
 
+  /// For shaders that read it as a buffer of texels; of no use once reserve() was true.
+  [[nodiscard]] vk::raii::BufferView texels(vk::Format format) const;
+
   [[nodiscard]] vk::Buffer handle() const { return *buffer_; }
   [[nodiscard]] std::size_t size() const { return bytes_; }
   /// Empty for MemoryUse::kDevice.

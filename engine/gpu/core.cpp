@@ -20,9 +20,8 @@ Core::Core(const GpuOptions& options)
   family_ = drawingFamily(physical_);
   memory_ = physical_.getMemoryProperties();
   limits_ = physical_.getProperties().limits;
-  if (options.most_storage_bytes > 0) {
-    limits_.maxStorageBufferRange =
-        std::min(limits_.maxStorageBufferRange, options.most_storage_bytes);
+  if (options.most_texels > 0) {
+    limits_.maxTexelBufferElements = std::min(limits_.maxTexelBufferElements, options.most_texels);
   }
   wide_atomics_ = options.wide_atomics && hasWideAtomics(physical_);
   device_ = makeDevice(physical_, {.family = family_,

@@ -25,8 +25,8 @@ struct GpuOptions {
   std::vector<std::string> instance_extensions = {};
   /// Off: the device is taken for one without 64-bit atomics in storage buffers.
   bool wide_atomics = true;
-  /// Not 0: the device is taken for one whose storage buffers are no larger than this.
-  std::uint32_t most_storage_bytes = 0;
+  /// Not 0: the device is taken for one whose texel buffers have no more elements than this.
+  std::uint32_t most_texels = 0;
 };
 
 /// A Vulkan device to draw with, shared by everything that draws; used from one thread at a time.

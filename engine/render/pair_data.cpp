@@ -17,12 +17,35 @@ constexpr std::uint32_t kDifferentGroups = 1;  // as in pairs.glsl
 constexpr std::uint32_t kTouching = 2;
 constexpr std::uint32_t kSomeLeftOut = 4;
 
+constexpr std::size_t kTexelsOfAPoint = 2;  // as in pairs.glsl
+
+/// What shaders read as texels; undefined where they don't.
+vk::Format texelFormat(std::uint32_t binding) {
+  switch (binding) {
+    case PairData::kPoints:
+    case PairData::kBlocks:
+      return vk::Format::eR32G32B32A32Sfloat;
+    case PairData::kLeftOut:
+    case PairData::kDepths:
+      return vk::Format::eR32Uint;
+    case PairData::kNearest:
+      return vk::Format::eR32G32B32A32Uint;
+    default:
+      return vk::Format::eUndefined;
+  }
+}
+
+vk::DescriptorType typeOf(std::uint32_t binding) {
+  if (binding == PairData::kPairs) return vk::DescriptorType::eUniformBuffer;
+  return texelFormat(binding) == vk::Format::eUndefined ? vk::DescriptorType::eStorageBuffer
+                                                        : vk::DescriptorType::eUniformTexelBuffer;
+}
+
 std::vector<gpu::Binding> bindings() {
   std::vector<gpu::Binding> all;
   for (std::uint32_t i = 0; i < PairData::kBindings; ++i) {
     all.push_back({.binding = i,
-                   .type = i == PairData::kPairs ? vk::DescriptorType::eUniformBuffer
-                                                 : vk::DescriptorType::eStorageBuffer,
+                   .type = typeOf(i),
                    .stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment |
                              vk::ShaderStageFlagBits::eCompute});
   }
@@ -37,6 +60,12 @@ std::uint32_t conditionsOf(const PairChoice& choice) {
 std::size_t numberOf(std::pair<std::uint32_t, std::uint32_t> pair) {
   const auto [i, j] = std::minmax(pair.first, pair.second);
   return std::size_t{j} * (j - 1) / 2 + i;
+}
+
+/// Pairs a lane: enough work groups to share evenly, few enough that their ends cost nothing.
+std::uint32_t runOf(std::size_t pairs) {
+  constexpr std::size_t kLanes = 64 * 64;
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>((pairs + kLanes - 1) / kLanes, 1, 64));
 }
 
 interop::PairsData dataOf(const PairGlyphs& glyphs, const ViewSet& views) {
@@ -56,7 +85,8 @@ interop::PairsData dataOf(const PairGlyphs& glyphs, const ViewSet& views) {
           .colour = views.colour(glyphs.colour),
           .conditions = conditionsOf(glyphs.choice),
           .least_area = static_cast<float>(glyphs.choice.least_area),
-          .most = glyphs.choice.most};
+          .most = glyphs.choice.most,
+          .run = runOf(points.pairCount())};
 }
 
 }  // namespace
@@ -64,28 +94,38 @@ interop::PairsData dataOf(const PairGlyphs& glyphs, const ViewSet& views) {
 PairData::PairData(const gpu::Core& core)
     : core_(core),
       pairs_(core, sizeof(interop::PairsData), Usage::eUniformBuffer, gpu::MemoryUse::kUpload),
-      points_(core, 0, Usage::eStorageBuffer, gpu::MemoryUse::kUpload),
-      blocks_(core, 0, Usage::eStorageBuffer, gpu::MemoryUse::kUpload),
-      left_out_(core, 0, Usage::eStorageBuffer, gpu::MemoryUse::kUpload),
+      points_(core, 0, Usage::eUniformTexelBuffer, gpu::MemoryUse::kUpload),
+      blocks_(core, 0, Usage::eUniformTexelBuffer, gpu::MemoryUse::kUpload),
+      left_out_(core, 0, Usage::eUniformTexelBuffer, gpu::MemoryUse::kUpload),
       counts_(core, sizeof(interop::PairsCounts),
               Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eTransferSrc |
                   Usage::eTransferDst,
               gpu::MemoryUse::kDevice),
       counts_read_(core, sizeof(interop::PairsCounts), Usage::eTransferDst,
                    gpu::MemoryUse::kReadback),
-      nothing_(core, 0, Usage::eStorageBuffer, gpu::MemoryUse::kDevice),
+      nothing_(core, 0, Usage::eStorageBuffer | Usage::eUniformTexelBuffer,
+               gpu::MemoryUse::kDevice),
       set_(core, bindings()) {
+  for (std::uint32_t i = 0; i < kBindings; ++i) texels_.emplace_back(nullptr);
   bind(kPairs, pairs_);
   bind(kPoints, points_);
   bind(kBlocks, blocks_);
   bind(kLeftOut, left_out_);
   bind(kCounts, counts_);
-  for (const Binding unused : {kList, kRuns, kHistogram, kVisibility}) bind(unused, nothing_);
+  for (const Binding unused : {kList, kRuns, kHistogram, kVisibility, kDepths, kNearest}) {
+    bind(unused, nothing_);
+  }
   counts_read_.as<interop::PairsCounts>(1)[0] = {};
 }
 
-void PairData::bind(Binding binding, const gpu::Buffer& buffer) const {
-  set_.writeBuffer(binding, buffer.handle());
+void PairData::bind(Binding binding, const gpu::Buffer& buffer) {
+  const vk::Format format = texelFormat(binding);
+  if (format == vk::Format::eUndefined) {
+    set_.writeBuffer(binding, buffer.handle());
+    return;
+  }
+  texels_[binding] = buffer.texels(format);
+  set_.writeTexels(binding, *texels_[binding]);
 }
 
 const interop::PairsCounts& PairData::counts() const {
@@ -93,36 +133,35 @@ const interop::PairsCounts& PairData::counts() const {
 }
 
 std::string PairData::problemWith(const PlanarPoints& points) const {
-  const std::size_t most = core_.limits().maxStorageBufferRange;
-  const std::size_t needed = points.blocks().size_bytes();
+  const std::size_t most = core_.limits().maxTexelBufferElements;
+  const std::size_t needed = points.blocks().size();
   if (needed <= most) return {};
-  return "the covariance of " + std::to_string(points.count()) + " points takes " +
-         std::to_string(needed >> 20U) + " MiB, and a buffer of this device no more than " +
-         std::to_string(most >> 20U) + " MiB";
+  return "the covariance of " + std::to_string(points.count()) + " points has " +
+         std::to_string(needed) + " blocks, and a buffer of this device no more than " +
+         std::to_string(most);
 }
 
 void PairData::sendPoints(const PlanarPoints& points) {
-  const auto means = points.means();
   const auto blocks = points.blocks();
-  if (points_.reserve(means.size() * sizeof(interop::PointData))) bind(kPoints, points_);
+  if (points_.reserve(points.means().size() * kTexelsOfAPoint * sizeof(Eigen::Vector4f))) {
+    bind(kPoints, points_);
+  }
   if (blocks_.reserve(blocks.size_bytes())) bind(kBlocks, blocks_);
   std::memcpy(blocks_.mapped().data(), blocks.data(), blocks.size_bytes());
-  const auto out = points_.as<interop::PointData>(means.size());
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    const Eigen::Vector4f& P = blocks[i * (i + 1) / 2 + i];
-    out[i] = {.mean = {means[i].x(), means[i].y()}, .P = {P.x(), P.y(), P.w()}, .tags = 0};
-  }
   uploaded_bytes_ = points.bytes();
 }
 
-void PairData::sendTags(const PlanarPoints& points) {
-  const auto count = static_cast<std::size_t>(points.count());
-  const auto out = points_.as<interop::PointData>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    out[i].tags = i < choice_.groups.size() ? choice_.groups[i] * 2 : 0;
+void PairData::sendTable(const PlanarPoints& points) {
+  const auto means = points.means();
+  const auto table = points_.as<Eigen::Vector4f>(kTexelsOfAPoint * means.size());
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const Eigen::Vector4f& P = points.blocks()[i * (i + 1) / 2 + i];
+    const float group = i < choice_.groups.size() ? static_cast<float>(choice_.groups[i]) : 0.0F;
+    table[2 * i] = {means[i].x(), means[i].y(), group, 0.0F};
+    table[2 * i + 1] = {P.x(), P.y(), P.w(), 0.0F};
   }
   for (const std::uint32_t i : choice_.touching) {
-    if (i < count) out[i].tags |= 1U;
+    if (i < means.size()) table[2 * i].w() = 1.0F;
   }
 }
 
@@ -150,8 +189,13 @@ void PairData::update(const PairGlyphs& glyphs, const ViewSet& views) {
   choice_ = glyphs.choice;
   if (others) sendPoints(*glyphs.points);
   sent_ = glyphs.points;
-  sendTags(*sent_);
+  sendTable(*sent_);
   sendLeftOut();
+}
+
+std::uint32_t PairData::groupCount() const {
+  const std::uint32_t pairs_of_a_group = 64 * data_.run;
+  return (data_.pairs + pairs_of_a_group - 1) / pairs_of_a_group;
 }
 
 void PairData::recordReset(const vk::raii::CommandBuffer& commands) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/gpu/buffer.hpp"
 #include "engine/gpu/descriptors.hpp"
@@ -19,14 +20,16 @@ class PairData {
   /// As in shaders/common/pairs.glsl and what includes it.
   enum Binding : std::uint32_t {
     kPairs,
-    kPoints,
-    kBlocks,
-    kLeftOut,
+    kPoints,   ///< texels, as all that is read at places that differ from lane to lane: software
+    kBlocks,   ///< rendering (lavapipe 22.3) gathers texels many times faster than storage
+    kLeftOut,  ///< texels
     kCounts,
     kList,  ///< of the chosen ones; of the large ones where pairs are splatted
     kRuns,
     kHistogram,
     kVisibility,
+    kDepths,   ///< texels: the words of kVisibility
+    kNearest,  ///< texels: both entries of a pixel of kVisibility
     kBindings,
   };
 
@@ -39,6 +42,8 @@ class PairData {
   void recordReset(const vk::raii::CommandBuffer& commands) const;
   /// Brings the counts to the host.
   void recordReadback(const vk::raii::CommandBuffer& commands) const;
+  /// Work groups of 64 lanes that go over all pairs, PairsData::run each.
+  [[nodiscard]] std::uint32_t groupCount() const;
 
   /// Why the points of the last update() can't be on this device; empty: they are.
   [[nodiscard]] const std::string& problem() const { return problem_; }
@@ -54,16 +59,17 @@ class PairData {
   [[nodiscard]] const gpu::DescriptorSet& set() const { return set_; }
   [[nodiscard]] vk::Buffer countsBuffer() const { return counts_.handle(); }
   /// Gives a pass's buffer its place in the set.
-  void bind(Binding binding, const gpu::Buffer& buffer) const;
+  void bind(Binding binding, const gpu::Buffer& buffer);
 
  private:
   void sendPoints(const PlanarPoints& points);
-  void sendTags(const PlanarPoints& points);
+  void sendTable(const PlanarPoints& points);
   void sendLeftOut();
   [[nodiscard]] std::string problemWith(const PlanarPoints& points) const;
 
   const gpu::Core& core_;
   gpu::Buffer pairs_, points_, blocks_, left_out_, counts_, counts_read_, nothing_;
+  std::vector<vk::raii::BufferView> texels_;  ///< by binding
   gpu::DescriptorSet set_;
   PlanarPointsPtr sent_;  ///< what the device has; held, so that no other can have its address
   interop::PairsData data_ = {};

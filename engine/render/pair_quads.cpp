@@ -55,7 +55,7 @@ PairQuads::PairQuads(const PassSetup& setup, const PairData& data)
       inside_(flatAndLit(setup, data, kInside)),
       edges_(flatAndLit(setup, data, kEdges)) {}
 
-void PairQuads::update(const PairData& data) {
+void PairQuads::update(PairData& data) {
   list_.reserve(data.pairCount() * sizeof(std::uint32_t));
   runs_.reserve(runsOf(data) * sizeof(std::uint32_t));
   data.bind(PairData::kList, list_);

@@ -18,7 +18,7 @@ class PairQuads {
   PairQuads(const PassSetup& setup, const PairData& data);
 
   /// Room for the frame; the device must not be drawing.
-  void update(const PairData& data);
+  void update(PairData& data);
   /// Makes the list; outside of rendering.
   void recordList(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
                   const PairData& data) const;

@@ -11,11 +11,10 @@ namespace slamscope::engine {
 namespace {
 
 constexpr std::uint32_t kBins = 256;
-constexpr std::uint32_t kPairsOfAGroup = 64 * 64;  // as in pairs_rank.comp
 
 }  // namespace
 
-PairRanking::PairRanking(const PassSetup& setup, const PairData& data)
+PairRanking::PairRanking(const PassSetup& setup, PairData& data)
     : histogram_(setup.core, kBins * sizeof(std::uint32_t),
                  vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst,
                  gpu::MemoryUse::kDevice) {
@@ -35,7 +34,7 @@ void PairRanking::record(const vk::raii::CommandBuffer& commands, vk::Descriptor
   barrier(commands, gpu::copyTarget(), gpu::computed());
   for (const Round& round : rounds_) {
     round.count.bind(commands, sets);
-    commands.dispatch((data.pairCount() + kPairsOfAGroup - 1) / kPairsOfAGroup, 1, 1);
+    commands.dispatch(data.groupCount(), 1, 1);
     barrier(commands, gpu::computed(), gpu::computed());
     round.settle.bind(commands, sets);
     commands.dispatch(1, 1, 1);

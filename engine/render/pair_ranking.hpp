@@ -13,7 +13,7 @@ namespace slamscope::engine {
 /// eight at a time.
 class PairRanking {
  public:
-  PairRanking(const PassSetup& setup, const PairData& data);
+  PairRanking(const PassSetup& setup, PairData& data);
 
   void record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
               const PairData& data) const;

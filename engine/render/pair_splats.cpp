@@ -8,7 +8,6 @@ namespace slamscope::engine {
 
 namespace {
 
-constexpr std::uint32_t kPairsOfAGroup = 64 * 8;  // as in pairs_splat.comp
 constexpr std::uint32_t kSlices = 8;
 constexpr std::uint32_t kLargeGroups = 16;  // that go over the list of large ones
 constexpr std::size_t kBytesOfAPixel = 2 * sizeof(std::uint64_t);
@@ -31,7 +30,9 @@ gpu::PipelineInfo resolveInfo(const PassSetup& setup, const PairData& data, bool
 
 PairSplats::PairSplats(const PassSetup& setup, const PairData& data)
     : visibility_(setup.core, 0,
-                  vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst,
+                  vk::BufferUsageFlagBits::eStorageBuffer |
+                      vk::BufferUsageFlagBits::eUniformTexelBuffer |
+                      vk::BufferUsageFlagBits::eTransferDst,
                   gpu::MemoryUse::kDevice),
       large_(setup.core, 0, vk::BufferUsageFlagBits::eStorageBuffer, gpu::MemoryUse::kDevice),
       small_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_FALSE}),
@@ -39,11 +40,13 @@ PairSplats::PairSplats(const PassSetup& setup, const PairData& data)
       resolve_{gpu::Pipeline(setup.core, resolveInfo(setup, data, false)),
                gpu::Pipeline(setup.core, resolveInfo(setup, data, true))} {}
 
-void PairSplats::update(const PairData& data, vk::Extent2D extent) {
+void PairSplats::update(PairData& data, vk::Extent2D extent) {
   bytes_ = std::size_t{extent.width} * extent.height * data.data().views * kBytesOfAPixel;
   visibility_.reserve(bytes_);
   large_.reserve(std::size_t{data.pairCount()} * data.data().views * sizeof(std::uint32_t));
-  data.bind(PairData::kVisibility, visibility_);
+  for (const auto binding : {PairData::kVisibility, PairData::kDepths, PairData::kNearest}) {
+    data.bind(binding, visibility_);
+  }
   data.bind(PairData::kList, large_);
 }
 
@@ -53,7 +56,7 @@ void PairSplats::recordSplats(const vk::raii::CommandBuffer& commands, vk::Descr
   barrier(commands, gpu::copyTarget(), gpu::computed());
   const std::array sets = {frame_set, data.set().handle()};
   small_pass_.bind(commands, sets);
-  commands.dispatch((data.pairCount() + kPairsOfAGroup - 1) / kPairsOfAGroup, 1, 1);
+  commands.dispatch(data.groupCount(), 1, 1);
   barrier(commands, gpu::computed(), gpu::computed());
   large_pass_.bind(commands, sets);
   commands.dispatch(kLargeGroups, kSlices, 1);

@@ -19,7 +19,7 @@ class PairSplats {
   PairSplats(const PassSetup& setup, const PairData& data);
 
   /// Room for the frame; the device must not be drawing.
-  void update(const PairData& data, vk::Extent2D extent);
+  void update(PairData& data, vk::Extent2D extent);
   /// Fills the visibility buffer; outside of rendering.
   void recordSplats(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
                     const PairData& data) const;

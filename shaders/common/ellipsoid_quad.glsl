@@ -11,7 +11,7 @@ layout(location = 9) flat out vec4 colour;
 
 vec4 quadAround(Seen e) {
   if (!e.drawn) return nowhere();
-  if (!e.in_front) return boxCorner(vec2(0.0), frame.views[gl_ViewIndex].size);
+  if (!e.in_front) return boxCorner(vec2(0.0), VIEW(size));
   const vec3 S = e.S;
   const float angle = 0.5 * atan(2.0 * S.y, S.x - S.z);
   const vec2 n = vec2(cos(angle), sin(angle));

@@ -20,13 +20,10 @@ void add(Tally tally) {
   if (tally.not_finite > 0u) atomicAdd(counts.not_finite, tally.not_finite);
 }
 
-// Orders areas as floats of 0 and above are ordered by their bits.
-uint areaKey(vec3 P_d) { return floatBitsToUint(areaOf(P_d)); }
-
-bool chosenByArea(vec3 P_d) {
+// least_key: counts.least_key, read once where all lanes are at work.
+bool chosenByArea(vec3 P_d, uint least_key) {
   const float area = areaOf(P_d);
-  return !(area < pairs.least_area) &&
-         (pairs.most == 0u || floatBitsToUint(area) >= counts.least_key);
+  return !(area < pairs.least_area) && (pairs.most == 0u || floatBitsToUint(area) >= least_key);
 }
 
 // Pixels that it may touch, from low to high; none where low > high.
@@ -34,7 +31,7 @@ struct Box {
   ivec2 low, high;
 };
 Box boxOf(Seen e) {
-  const vec2 size = frame.views[VIEW_INDEX].size;
+  const vec2 size = VIEW(size);
   if (!e.drawn) return Box(ivec2(1), ivec2(0));
   if (!e.in_front) return Box(ivec2(0), ivec2(size) - 1);
   const vec2 centre = e.reference + e.middle;
@@ -47,13 +44,13 @@ bool empty(Box box) { return any(greaterThan(box.low, box.high)); }
 
 Seen seenBy(uint view, Solid s) {
   view_index = view;
-  const mat3 R = frame.views[view].R_eye_shared;
+  const mat3 R = VIEW(R_eye_shared);
   return seen(eyeFromShared(s.centre), R * mat3(s.axis0, s.axis1, s.axis2));
 }
 
-bool wanted(uint number, inout Tally tally) {
+bool wanted(uint number, uint least_key, inout Tally tally) {
   const Pair pair = pairAt(number);
-  if (!pair.wanted || !chosenByArea(pair.P_d)) return false;
+  if (!pair.wanted || !chosenByArea(pair.P_d, least_key)) return false;
   ++tally.chosen;
   const Solid solid = solidOf(pair);
   if (!solid.finite) {

@@ -4,9 +4,9 @@
 #include "../interop/pairs.h"
 
 layout(set = 1, binding = 0, scalar) uniform Pairs { PairsData pairs; };
-layout(set = 1, binding = 1, scalar) readonly buffer Points { PointData points[]; };
-layout(set = 1, binding = 2, scalar) readonly buffer Blocks { vec4 blocks[]; };
-layout(set = 1, binding = 3, scalar) readonly buffer LeftOut { uint left_out[]; };  // bit a pair
+layout(set = 1, binding = 1) uniform samplerBuffer points;  // mean, group, touching; xx, xy, yy of P
+layout(set = 1, binding = 2) uniform samplerBuffer blocks;
+layout(set = 1, binding = 3) uniform usamplerBuffer left_out;  // bit a pair
 
 const uint kDifferentGroups = 1u;  // PairsData::conditions
 const uint kTouching = 2u;
@@ -28,18 +28,18 @@ struct Pair {
 // Equation (13) of the paper: P_d = P_ii + P_jj − P_ij − P_ijᵀ.
 Pair pairAt(uint number) {
   const uvec2 ij = pairOf(number);
-  const PointData a = points[ij.x];
-  const PointData b = points[ij.y];
-  const vec4 P_ji = blocks[ij.y * (ij.y + 1u) / 2u + ij.x];
+  const vec4 a = texelFetch(points, int(2u * ij.x));
+  const vec4 b = texelFetch(points, int(2u * ij.y));
+  const vec3 P_ii = texelFetch(points, int(2u * ij.x + 1u)).xyz;
+  const vec3 P_jj = texelFetch(points, int(2u * ij.y + 1u)).xyz;
+  const vec4 P_ji = texelFetch(blocks, int(ij.y * (ij.y + 1u) / 2u + ij.x));
   const vec3 twice = vec3(2.0 * P_ji.x, P_ji.y + P_ji.z, 2.0 * P_ji.w);
-  const bool different = (a.tags >> 1) != (b.tags >> 1);
-  const bool touching = ((a.tags | b.tags) & 1u) != 0u;
-  bool wanted = (different || (pairs.conditions & kDifferentGroups) == 0u) &&
-                (touching || (pairs.conditions & kTouching) == 0u);
-  if ((pairs.conditions & kLeftOut) != 0u) {
-    wanted = wanted && (left_out[number >> 5] >> (number & 31u) & 1u) == 0u;
-  }
-  return Pair(0.5 * (a.mean + b.mean), (a.P + b.P) - twice, wanted);
+  bool wanted = (a.z != b.z || (pairs.conditions & kDifferentGroups) == 0u) &&
+                (a.w + b.w > 0.0 || (pairs.conditions & kTouching) == 0u);
+  const bool some_left_out = (pairs.conditions & kLeftOut) != 0u;
+  const uint bits = texelFetch(left_out, some_left_out ? int(number >> 5) : 0).x;
+  wanted = wanted && !(some_left_out && (bits >> (number & 31u) & 1u) != 0u);
+  return Pair(0.5 * (a.xy + b.xy), (P_ii + P_jj) - twice, wanted);
 }
 
 // Eigenvalues (m², major first) and the major direction of a symmetric 2 × 2 matrix. Closed form,

@@ -19,13 +19,7 @@ struct PairsData {
   uint conditions;   // bits kDifferentGroups …
   float least_area;  // m²
   uint most;
-};
-
-// One entry a point.
-struct PointData {
-  vec2 mean;    // m, relative to the origin
-  vec3 P;       // xx, xy, yy, m², less the first point's
-  uint tags;    // group · 2 + 1 where it is one of PairChoice::touching
+  uint run;  // pairs a lane
 };
 
 // What the device counts, and the arguments of the commands that follow.

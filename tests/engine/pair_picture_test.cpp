@@ -410,11 +410,11 @@ TEST_F(PairWays, WithoutWideAtomicsQuadsDoItAll) {
 
 TEST_F(PairWays, PointsThatNoBufferTakesAreSaidSo) {
   const Scene scene = sceneOf(someMap(60, 0.01));
-  useGpu(GpuOptions{.validation = true, .most_storage_bytes = 1830U * 16});
+  useGpu(GpuOptions{.validation = true, .most_texels = 1830U});
   (void)draw(overFloor(), scene, {});
   EXPECT_EQ(stats_.pairs.problem, "");
   EXPECT_EQ(stats_.pairs.chosen, 1770U);
-  useGpu(GpuOptions{.validation = true, .most_storage_bytes = 1830U * 16 - 1});
+  useGpu(GpuOptions{.validation = true, .most_texels = 1829U});
   (void)draw(overFloor(), scene, {});
   EXPECT_NE(stats_.pairs.problem.find("60 points"), std::string::npos);
   EXPECT_EQ(stats_.pairs.chosen, 0U);
