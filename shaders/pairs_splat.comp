@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Splats the ellipsoids of all chosen pairs into the visibility buffer: for each pixel of each view
 // the nearest of those that cover it whole, and the nearest of those whose edge runs through it.
-// Small ones are done by one lane each; the others are put on a list for the second dispatch, in
+// Those no larger than a tile are done by one lane each; the others are put on a list for the second dispatch, in
 // which kSlices work groups share each of them.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -9,6 +9,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
 #include "common/pair_wanted.glsl"
+#include "common/pair_tiles.glsl"
 
 layout(constant_id = 0) const bool kLarge = false;  // the second dispatch
 layout(local_size_x = 64) in;
@@ -19,8 +20,25 @@ layout(set = 1, binding = 8, scalar) buffer Visibility { uint64_t nearest[]; };
 layout(set = 1, binding = 9) uniform usamplerBuffer nearest_words;  // the same memory
 layout(set = 1, binding = 5, scalar) buffer Large { uint large[]; };  // number, view
 
-const int kLargestBox = 1024;  // px², for one lane
 const uint kSlices = 8u;
+
+// What the resolve pass needs to shade a pair: three entries a pair, views one after another.
+layout(set = 1, binding = 11, scalar) writeonly buffer Faces { vec4 faces[]; };
+layout(set = 1, binding = 13, scalar) writeonly buffer Tiles { uint tiles[]; };
+
+void keepFace(uint view, uint number, Solid s, Seen e) {
+  const uint at = 3u * (view * pairs.pairs + number);
+  const float ratio = dot(s.axis1, s.axis1) / dot(s.axis0, s.axis0);
+  const vec3 u = VIEW(R_eye_shared) * normalize(s.axis0);
+  faces[at] = vec4(eyeFromShared(s.centre), e.conic.k);
+  faces[at + 1u] = vec4(e.conic.l, e.conic.q.xy);
+  faces[at + 2u] = vec4(e.conic.q.z, u.x, u.y, u.z < 0.0 ? -ratio : ratio);
+}
+
+void touchTile(uint view, uvec2 tile) {
+  const uvec2 tile_counts = tileCounts();
+  tiles[(view * tile_counts.y + tile.y) * tile_counts.x + tile.x] = 1u;
+}
 
 // What depth and coverage of a pixel need: the conic, and depth = scale (a·D − √F) / |D|² with
 // numerator and denominator as polynomials of the pixel.
@@ -70,10 +88,17 @@ void splatSmall(uint number, uint least_key, inout Tally tally) {
     if (empty(box)) continue;
     in_picture = true;
     const ivec2 size = box.high - box.low + 1;
-    if (size.x * size.y > kLargestBox) {
+    keepFace(view, number, solid, e);
+    if (max(size.x, size.y) > int(kTile)) {
       large[atomicAdd(counts.large, 1u)] = number * 2u + view;
       continue;
     }
+    const uvec2 first = uvec2(box.low) / kTile;
+    const uvec2 last = uvec2(box.high) / kTile;
+    touchTile(view, first);
+    touchTile(view, last);
+    touchTile(view, uvec2(first.x, last.y));
+    touchTile(view, uvec2(last.x, first.y));
     const uint width = uint(VIEW(size).x);
     const uint base = 2u * view * width * uint(VIEW(size).y);
     const Rays rays = raysOf(e);
@@ -97,6 +122,11 @@ void splatLarge() {
     const uint width = uint(VIEW(size).x);
     const uint base = 2u * view * width * uint(VIEW(size).y);
     const Rays rays = raysOf(e);
+    for (uint y = uint(box.low.y) / kTile; y <= uint(box.high.y) / kTile; ++y) {
+      for (uint x = uint(box.low.x) / kTile; x <= uint(box.high.x) / kTile; ++x) {
+        if (gl_LocalInvocationIndex == 0u) touchTile(view, uvec2(x, y));
+      }
+    }
     for (int y = box.low.y + int(gl_WorkGroupID.y); y <= box.high.y; y += int(kSlices)) {
       for (int x = box.low.x + int(gl_LocalInvocationID.x); x <= box.high.x; x += 64) {
         splatPixel(rays, ivec2(x, y), base, width, number);

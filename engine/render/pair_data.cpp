@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/pair_data.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -24,9 +25,11 @@ vk::Format texelFormat(std::uint32_t binding) {
   switch (binding) {
     case PairData::kPoints:
     case PairData::kBlocks:
+    case PairData::kFaceTexels:
       return vk::Format::eR32G32B32A32Sfloat;
     case PairData::kLeftOut:
     case PairData::kDepths:
+    case PairData::kTileTexels:
       return vk::Format::eR32Uint;
     case PairData::kNearest:
       return vk::Format::eR32G32B32A32Uint;
@@ -57,9 +60,44 @@ std::uint32_t conditionsOf(const PairChoice& choice) {
          (choice.touching.empty() ? 0 : kTouching) | (choice.left_out.empty() ? 0 : kSomeLeftOut);
 }
 
-std::size_t numberOf(std::pair<std::uint32_t, std::uint32_t> pair) {
-  const auto [i, j] = std::minmax(pair.first, pair.second);
+/// Of a pair by its places in the order.
+std::size_t numberOf(std::uint32_t a, std::uint32_t b) {
+  const auto [i, j] = std::minmax(a, b);
   return std::size_t{j} * (j - 1) / 2 + i;
+}
+
+/// The bits of two 16-bit numbers in turns.
+std::uint32_t interleaved(std::uint32_t x, std::uint32_t y) {
+  const auto spread = [](std::uint32_t v) {
+    v = (v | v << 8U) & 0x00FF00FFU;
+    v = (v | v << 4U) & 0x0F0F0F0FU;
+    v = (v | v << 2U) & 0x33333333U;
+    return (v | v << 1U) & 0x55555555U;
+  };
+  return spread(x) | spread(y) << 1U;
+}
+
+/// Along a Z-shaped curve through the plane: what is near in this order is near in the picture, so
+/// that pairs that are drawn together are drawn into the same part of memory.
+std::vector<std::uint32_t> alongCurve(std::span<const Eigen::Vector2f> means) {
+  Eigen::AlignedBox2f box;
+  for (const Eigen::Vector2f& mean : means) {
+    if (mean.allFinite()) box.extend(mean);
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed;
+  for (std::uint32_t i = 0; i < means.size(); ++i) {
+    std::uint32_t key = 0;
+    if (means[i].allFinite()) {
+      const Eigen::Array2f size = box.sizes().array().max(1e-30F);
+      const Eigen::Array2f cell = 65535.0F * (means[i] - box.min()).array() / size;
+      key = interleaved(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y()));
+    }
+    keyed.emplace_back(key, i);
+  }
+  std::ranges::sort(keyed);
+  std::vector<std::uint32_t> order;
+  for (const auto& [key, i] : keyed) order.push_back(i);
+  return order;
 }
 
 /// Pairs a lane: enough work groups to share evenly, few enough that their ends cost nothing.
@@ -112,9 +150,7 @@ PairData::PairData(const gpu::Core& core)
   bind(kBlocks, blocks_);
   bind(kLeftOut, left_out_);
   bind(kCounts, counts_);
-  for (const Binding unused : {kList, kRuns, kHistogram, kVisibility, kDepths, kNearest}) {
-    bind(unused, nothing_);
-  }
+  for (std::uint32_t i = kList; i < kBindings; ++i) bind(static_cast<Binding>(i), nothing_);
   counts_read_.as<interop::PairsCounts>(1)[0] = {};
 }
 
@@ -148,20 +184,22 @@ void PairData::sendPoints(const PlanarPoints& points) {
   }
   if (blocks_.reserve(blocks.size_bytes())) bind(kBlocks, blocks_);
   std::memcpy(blocks_.mapped().data(), blocks.data(), blocks.size_bytes());
+  order_ = alongCurve(points.means());
   uploaded_bytes_ = points.bytes();
 }
 
 void PairData::sendTable(const PlanarPoints& points) {
   const auto means = points.means();
-  const auto table = points_.as<Eigen::Vector4f>(kTexelsOfAPoint * means.size());
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    const Eigen::Vector4f& P = points.blocks()[i * (i + 1) / 2 + i];
-    const float group = i < choice_.groups.size() ? static_cast<float>(choice_.groups[i]) : 0.0F;
-    table[2 * i] = {means[i].x(), means[i].y(), group, 0.0F};
-    table[2 * i + 1] = {P.x(), P.y(), P.w(), 0.0F};
-  }
+  std::vector<bool> touched(means.size(), false);
   for (const std::uint32_t i : choice_.touching) {
-    if (i < means.size()) table[2 * i].w() = 1.0F;
+    if (i < means.size()) touched[i] = true;
+  }
+  auto texel = points_.as<Eigen::Vector4f>(kTexelsOfAPoint * means.size()).begin();
+  for (const std::uint32_t i : order_) {
+    const Eigen::Vector4f& P = points.blocks()[std::size_t{i} * (i + 1) / 2 + i];
+    const float group = i < choice_.groups.size() ? static_cast<float>(choice_.groups[i]) : 0.0F;
+    *texel++ = {means[i].x(), means[i].y(), group, touched[i] ? 1.0F : 0.0F};
+    *texel++ = {P.x(), P.y(), P.w(), static_cast<float>(i)};
   }
 }
 
@@ -171,9 +209,12 @@ void PairData::sendLeftOut() {
   if (left_out_.reserve(words * sizeof(std::uint32_t))) bind(kLeftOut, left_out_);
   const auto bits = left_out_.as<std::uint32_t>(words);
   std::ranges::fill(bits, 0U);
-  for (const auto& pair : choice_.left_out) {
-    const std::size_t number = numberOf(pair);
-    if (pair.first != pair.second && number < pairCount()) bits[number / 32] |= 1U << number % 32;
+  std::vector<std::uint32_t> place(order_.size());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) place[order_[i]] = i;
+  for (const auto& [a, b] : choice_.left_out) {
+    if (a == b || std::max(a, b) >= place.size()) continue;
+    const std::size_t number = numberOf(place[a], place[b]);
+    bits[number / 32] |= 1U << number % 32;
   }
 }
 

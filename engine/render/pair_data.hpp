@@ -30,6 +30,10 @@ class PairData {
     kVisibility,
     kDepths,   ///< texels: the words of kVisibility
     kNearest,  ///< texels: both entries of a pixel of kVisibility
+    kFaces,    ///< what the resolve pass needs of a splatted pair, by view
+    kFaceTexels,
+    kTiles,  ///< not 0 where something was splatted
+    kTileTexels,
     kBindings,
   };
 
@@ -69,6 +73,7 @@ class PairData {
 
   const gpu::Core& core_;
   gpu::Buffer pairs_, points_, blocks_, left_out_, counts_, counts_read_, nothing_;
+  std::vector<std::uint32_t> order_;          ///< points as the device has them, by index
   std::vector<vk::raii::BufferView> texels_;  ///< by binding
   gpu::DescriptorSet set_;
   PlanarPointsPtr sent_;  ///< what the device has; held, so that no other can have its address

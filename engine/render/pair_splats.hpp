@@ -12,8 +12,8 @@ namespace slamscope::engine {
 /// Pairs splatted by a compute shader into a visibility buffer: two 64-bit entries a pixel of each
 /// view, depth above the pair's number, for the nearest ellipsoid that covers the pixel whole and
 /// the nearest that has its edge there. All views in one dispatch. Then the picture is made of it,
-/// each pixel shaded once, with depth, so that it stands rightly among what else is drawn. Needs
-/// gpu::Core::wideAtomics().
+/// each pixel shaded once, with depth, so that it stands rightly among what else is drawn; only
+/// where something was splatted, tile by tile. Needs gpu::Core::wideAtomics().
 class PairSplats {
  public:
   PairSplats(const PassSetup& setup, const PairData& data);
@@ -26,8 +26,9 @@ class PairSplats {
   void record(const FrameContext& context, const PairData& data) const;
 
  private:
-  gpu::Buffer visibility_, large_;
-  std::size_t bytes_ = 0;  // of the visibility buffer that this frame uses
+  gpu::Buffer visibility_, large_, faces_, tiles_;
+  std::size_t visibility_bytes_ = 0;  // that this frame uses
+  std::uint32_t tile_count_ = 0;      // of a view
   gpu::ComputePipeline small_pass_, large_pass_;
   std::array<gpu::Pipeline, 2> resolve_;  // flat, lit
 };

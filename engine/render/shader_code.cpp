@@ -29,6 +29,7 @@ namespace {
 #include "pairs_rank_comp.h"
 #include "pairs_resolve_frag.h"
 #include "pairs_splat_comp.h"
+#include "pairs_tiles_vert.h"
 #include "pairs_vert.h"
 #include "rects_frag.h"
 #include "rects_vert.h"
@@ -53,6 +54,7 @@ const std::array kShaders = {ShaderCode{"arrows_frag", arrows_frag},
                              ShaderCode{"pairs_rank_comp", pairs_rank_comp},
                              ShaderCode{"pairs_resolve_frag", pairs_resolve_frag},
                              ShaderCode{"pairs_splat_comp", pairs_splat_comp},
+                             ShaderCode{"pairs_tiles_vert", pairs_tiles_vert},
                              ShaderCode{"pairs_vert", pairs_vert},
                              ShaderCode{"rects_frag", rects_frag},
                              ShaderCode{"rects_vert", rects_vert},

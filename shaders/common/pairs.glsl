@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // From the points and their covariance to the ellipsoid of a pair. Pairs are numbered row by row of
-// the strictly lower triangle: pair (i, j), i < j, is j (j − 1) / 2 + i.
+// the strictly lower triangle: that of the points at places i < j of the table is j (j − 1) / 2 + i.
 #include "../interop/pairs.h"
 
 layout(set = 1, binding = 0, scalar) uniform Pairs { PairsData pairs; };
-layout(set = 1, binding = 1) uniform samplerBuffer points;  // mean, group, touching; xx, xy, yy of P
+layout(set = 1, binding = 1) uniform samplerBuffer points;  // in an order of their own: mean,
+// group, touching; xx, xy, yy of P, index
 layout(set = 1, binding = 2) uniform samplerBuffer blocks;
 layout(set = 1, binding = 3) uniform usamplerBuffer left_out;  // bit a pair
 
@@ -30,16 +31,19 @@ Pair pairAt(uint number) {
   const uvec2 ij = pairOf(number);
   const vec4 a = texelFetch(points, int(2u * ij.x));
   const vec4 b = texelFetch(points, int(2u * ij.y));
-  const vec3 P_ii = texelFetch(points, int(2u * ij.x + 1u)).xyz;
-  const vec3 P_jj = texelFetch(points, int(2u * ij.y + 1u)).xyz;
-  const vec4 P_ji = texelFetch(blocks, int(ij.y * (ij.y + 1u) / 2u + ij.x));
+  const vec4 P_ii = texelFetch(points, int(2u * ij.x + 1u));
+  const vec4 P_jj = texelFetch(points, int(2u * ij.y + 1u));
+  // Which of the two is transposed makes no difference.
+  const uint row = uint(max(P_ii.w, P_jj.w));
+  const uint column = uint(min(P_ii.w, P_jj.w));
+  const vec4 P_ji = texelFetch(blocks, int(row * (row + 1u) / 2u + column));
   const vec3 twice = vec3(2.0 * P_ji.x, P_ji.y + P_ji.z, 2.0 * P_ji.w);
   bool wanted = (a.z != b.z || (pairs.conditions & kDifferentGroups) == 0u) &&
                 (a.w + b.w > 0.0 || (pairs.conditions & kTouching) == 0u);
   const bool some_left_out = (pairs.conditions & kLeftOut) != 0u;
   const uint bits = texelFetch(left_out, some_left_out ? int(number >> 5) : 0).x;
   wanted = wanted && !(some_left_out && (bits >> (number & 31u) & 1u) != 0u);
-  return Pair(0.5 * (a.xy + b.xy), (P_ii + P_jj) - twice, wanted);
+  return Pair(0.5 * (a.xy + b.xy), (P_ii.xyz + P_jj.xyz) - twice, wanted);
 }
 
 // Eigenvalues (m², major first) and the major direction of a symmetric 2 × 2 matrix. Closed form,

@@ -97,22 +97,25 @@ BENCHMARK(drawFrame)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
-/// A map of n features over 3 m × 3 m of floor whose pairs have 3-sigma semi-axes of 2 to 6 px.
+/// A map of n features all over the floor that is seen, in no order. Larger maps are seen from
+/// farther away: the 3-sigma semi-axes of pairs are some 16 px long for 15 features and 2 px for
+/// 1000.
 PlanarPointsPtr mapOf(int n, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(-1.5, 1.5);
   std::normal_distribution<double> normal;
   std::vector<Eigen::Vector2d> means;
   for (int i = 0; i < n; ++i) means.emplace_back(place(random), place(random));
-  constexpr double kSigma = 0.003;  // m, of a feature in what it has in common with others
+  const double sigma =
+      0.056 / std::sqrt(n);  // m, of a feature in what it has in common with others
   Eigen::MatrixXd root(2 * n, 6);
-  for (int k = 0; k < root.size(); ++k) root(k) = kSigma * normal(random) / std::sqrt(6.0);
+  for (int k = 0; k < root.size(); ++k) root(k) = sigma * normal(random) / std::sqrt(6.0);
   std::vector<double> packed;
   for (int row = 0; row < 2 * n; ++row) {
     for (int column = 0; column < row; ++column) {
       packed.push_back(root.row(row).dot(root.row(column)));
     }
-    packed.push_back(root.row(row).squaredNorm() + 0.04 * kSigma * kSigma);
+    packed.push_back(root.row(row).squaredNorm() + 0.04 * sigma * sigma);
   }
   return std::make_shared<PlanarPoints>(means, packed);
 }
