@@ -56,20 +56,37 @@ Rays raysOf(Seen e) {
               vec3(dot(e.Du, e.Du), dot(e.Du, e.Dv), dot(e.Dv, e.Dv)));
 }
 
-void splatPixel(Rays r, ivec2 pixel, uint base, uint width, uint number) {
+// What a pixel would get.
+struct Splat {
+  bool hit;
+  uint entry, bits;
+};
+
+Splat splatAt(Rays r, ivec2 pixel, bool inside_box, uint base, uint width) {
   const vec2 x = vec2(pixel) + 0.5 - r.reference;
   const ConicPoint at = evaluate(r.conic, x);
   const float aD = r.aD.x + dot(r.aD.yz, x);
   const vec2 slope = r.DD0.yz + vec2(r.DD2.x * x.x + r.DD2.y * x.y, r.DD2.y * x.x + r.DD2.z * x.y);
   const float DD = r.DD0.x + dot(r.DD0.yz + slope, x);
   const float depth = r.scale * (aD - sqrt(max(at.f, 0.0))) / DD;
-  if (!(depth >= frame.near) || !touchesPixel(r.conic, at)) return;
+  const bool hit = inside_box && depth >= frame.near && touchesPixel(r.conic, at);
   const uint layer = coversPixel(r.conic, at) ? 0u : 1u;
   const uint entry = base + 2u * (uint(pixel.y) * width + uint(pixel.x)) + layer;
-  const uint bits = floatBitsToUint(depth);
-  // Most are hidden: a plain look first. Entries only ever fall, so an old one does no harm.
-  if (bits > texelFetch(nearest_words, int(2u * entry + 1u)).x) return;
-  atomicMin(nearest[entry], uint64_t(bits) << 32 | uint64_t(number));
+  return Splat(hit, hit ? entry : base, floatBitsToUint(depth));
+}
+
+// Most are hidden: a plain look first. Entries only ever fall, so an old one does no harm.
+bool nearer(Splat s) { return s.hit && s.bits <= texelFetch(nearest_words, int(2u * s.entry + 1u)).x; }
+
+// Two neighbours at once: waiting for the memory of one is work on the other.
+void splatPixels(Rays r, ivec2 pixel, ivec2 step, bool second_inside, uint base, uint width,
+                 uint number) {
+  const Splat one = splatAt(r, pixel, true, base, width);
+  const Splat two = splatAt(r, pixel + step, second_inside, base, width);
+  const bool one_nearer = nearer(one);
+  const bool two_nearer = nearer(two);
+  if (one_nearer) atomicMin(nearest[one.entry], uint64_t(one.bits) << 32 | uint64_t(number));
+  if (two_nearer) atomicMin(nearest[two.entry], uint64_t(two.bits) << 32 | uint64_t(number));
 }
 
 void splatSmall(uint number, uint least_key, inout Tally tally) {
@@ -104,8 +121,8 @@ void splatSmall(uint number, uint least_key, inout Tally tally) {
     const Rays rays = raysOf(e);
     ivec2 at = box.low;
     while (at.y <= box.high.y) {
-      splatPixel(rays, at, base, width, number);
-      ++at.x;
+      splatPixels(rays, at, ivec2(1, 0), at.x < box.high.x, base, width, number);
+      at.x += 2;
       if (at.x > box.high.x) at = ivec2(box.low.x, at.y + 1);
     }
   }
@@ -128,8 +145,8 @@ void splatLarge() {
       }
     }
     for (int y = box.low.y + int(gl_WorkGroupID.y); y <= box.high.y; y += int(kSlices)) {
-      for (int x = box.low.x + int(gl_LocalInvocationID.x); x <= box.high.x; x += 64) {
-        splatPixel(rays, ivec2(x, y), base, width, number);
+      for (int x = box.low.x + int(gl_LocalInvocationID.x); x <= box.high.x; x += 128) {
+        splatPixels(rays, ivec2(x, y), ivec2(64, 0), x + 64 <= box.high.x, base, width, number);
       }
     }
   }
