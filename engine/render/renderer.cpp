@@ -51,35 +51,37 @@ int Renderer::update(const ViewSet& views, const Scene& scene) {
 
 void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
                       FrameStats& stats) {
-  background_.recordUpload(commands);
+  const bool background_stands = background_.recordCopies(commands, target.colour);
+  barrier(commands, target.depth, gpu::unused(), gpu::depthTested());
   letter_texture_->recordUpload(commands);
   if (some_pairs_) pairs_->recordChoice(commands, frame_set_.handle());
 
   const vk::RenderingAttachmentInfo colour = {
-      .imageView = target.colour,
+      .imageView = target.colour.view(),
       .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
-      .loadOp = vk::AttachmentLoadOp::eClear,
+      .loadOp = background_stands ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
       .storeOp = vk::AttachmentStoreOp::eStore,
       .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
   const vk::RenderingAttachmentInfo depth = {
-      .imageView = target.depth,
+      .imageView = target.depth.view(),
       .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
       .loadOp = vk::AttachmentLoadOp::eClear,
       .storeOp = vk::AttachmentStoreOp::eDontCare,
       .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};  // reversed: infinitely far
-  const vk::Rect2D area = {.extent = target.extent};
+  const vk::Extent2D extent = target.colour.extent();
+  const vk::Rect2D area = {.extent = extent};
   commands.beginRendering({.renderArea = area,
                            .layerCount = 1,
                            .viewMask = setup_.view_mask,
                            .colorAttachmentCount = 1,
                            .pColorAttachments = &colour,
                            .pDepthAttachment = &depth});
-  commands.setViewport(
-      0, vk::Viewport{.x = -kBorderPx,
-                      .y = -kBorderPx,
-                      .width = static_cast<float>(target.extent.width) + 2.0F * kBorderPx,
-                      .height = static_cast<float>(target.extent.height) + 2.0F * kBorderPx,
-                      .maxDepth = 1.0F});
+  commands.setViewport(0,
+                       vk::Viewport{.x = -kBorderPx,
+                                    .y = -kBorderPx,
+                                    .width = static_cast<float>(extent.width) + 2.0F * kBorderPx,
+                                    .height = static_cast<float>(extent.height) + 2.0F * kBorderPx,
+                                    .maxDepth = 1.0F});
   commands.setScissor(0, area);
 
   const FrameContext context = {commands, frame_set_.handle(), lit_, stats};

@@ -15,11 +15,10 @@
 
 namespace slamscope::engine {
 
-/// Where to draw: one layer a view.
+/// Where to draw: one layer a view, of the same extent.
 struct RenderTarget {
-  vk::ImageView colour;
-  vk::ImageView depth;
-  vk::Extent2D extent;
+  const gpu::DeviceImage& colour;
+  const gpu::DeviceImage& depth;
 };
 
 /// The passes, once, in the order they are drawn.
@@ -31,8 +30,8 @@ class Renderer {
   /// Takes the frame over to memory that the device sees, which must not be drawing. Returns the
   /// number of glyphs left out because of numbers that are not finite.
   int update(const ViewSet& views, const Scene& scene);
-  /// Records uploads and the drawing; the target's images are in the layouts of gpu::drawnInto()
-  /// and gpu::depthTested().
+  /// Records uploads and the drawing. What the target held is lost; its images are left in the
+  /// layouts of gpu::drawnInto() and gpu::depthTested().
   void record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
               FrameStats& stats);
   /// Of the frame last waited for.
