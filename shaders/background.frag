@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The camera's picture behind the scene; undistorted on the way where there is a lookup map.
+// The camera's picture behind the scene, undistorted by a lookup map. One without a map was copied
+// into the target before.
 #version 460
 #extension GL_EXT_multiview : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,10 +13,8 @@ layout(set = 1, binding = 2) uniform sampler2DArray map0;
 layout(set = 1, binding = 3) uniform sampler2DArray map1;
 layout(location = 0) out vec4 result;
 
-vec4 seen(sampler2DArray picture, sampler2DArray map, uint kind) {
+vec4 seen(sampler2DArray picture, sampler2DArray map) {
   const ivec3 pixel = ivec3(gl_FragCoord.xy, 0);
-  if (kind == 1) return texelFetch(picture, pixel, 0);
-  if (kind == 0) return vec4(0.0);
   // Integer coordinates of the map are texel centres (OpenCV); outside the sampler gives black.
   const vec2 uv = texelFetch(map, pixel, 0).xy;
   const vec2 size = vec2(textureSize(picture, 0).xy);
@@ -26,12 +25,12 @@ vec4 seen(sampler2DArray picture, sampler2DArray map, uint kind) {
 }
 
 void main() {
-  const uint kind = frame.views[gl_ViewIndex].background;
+  if (VIEW(background) != 2) discard;
   vec4 texel;
   if (gl_ViewIndex == 0) {
-    texel = seen(picture0, map0, kind);
+    texel = seen(picture0, map0);
   } else {
-    texel = seen(picture1, map1, kind);
+    texel = seen(picture1, map1);
   }
   result = vec4(texel.rgb, 1.0);
 }

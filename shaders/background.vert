@@ -6,4 +6,4 @@
 #include "common/view.glsl"
 #include "common/quad.glsl"
 
-void main() { gl_Position = boxCorner(vec2(0.0), frame.views[gl_ViewIndex].size); }
+void main() { gl_Position = boxCorner(vec2(0.0), VIEW(size)); }

@@ -61,7 +61,7 @@ void main() {
   const bool inside = coverage > 0.996;
   if (coverage <= 0.0 || inside == kEdges) discard;
 
-  const vec2 uv = gl_FragCoord.xy - frame.views[gl_ViewIndex].principal;
+  const vec2 uv = gl_FragCoord.xy - VIEW(principal);
   const vec3 ray = vec3(0.0, 0.0, 1.0) + uv.x * rayPerU() + uv.y * rayPerV();
   const vec3 middle = tip + rim_l_sizes.w * axis;
   const float plane = dot(middle, axis);

@@ -37,7 +37,7 @@ vec4 nullDirections(float p, float q, float s, vec2 inside) {
 void main() {
   const ConeGlyph cone = cones[gl_InstanceIndex];
   tip = eyeFromShared(cone.tip);
-  axis = frame.views[gl_ViewIndex].R_eye_shared * cone.axis;
+  axis = VIEW(R_eye_shared) * cone.axis;
   const float r = cone.radius;
   const float h = cone.height;
   const vec3 rim = tip + h * axis;

@@ -5,7 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/coverage.glsl"
 #include "common/view.glsl"
+#include "common/ellipsoid.glsl"
 #include "common/shade.glsl"
+
+layout(constant_id = 1) const uint kPart = 0u;  // 0: whole, 1: pixels covered whole, 2: the others
 
 layout(location = 0) flat in vec4 reference_l;
 layout(location = 1) flat in vec4 q_k;
@@ -21,23 +24,16 @@ void main() {
   const vec2 x = gl_FragCoord.xy - reference_l.xy;
   const Conic conic = Conic(q_k.w, reference_l.zw, q_k.xyz);
   const ConicPoint at = evaluate(conic, x);
-  const float coverage = conicCoverage(conic, at);
+  float coverage = 1.0;
+  if (kPart != 1u) coverage = conicCoverage(conic, at);
+  const bool whole = coversPixel(conic, at);
+  if (kPart == 1u && !whole || kPart == 2u && whole) coverage = 0.0;
 
-  // Edge pixels whose centre misses the ellipsoid take the point where the ray passes closest.
-  const vec3 D = D0_scale.xyz + Du * x.x + Dv * x.y;
-  const float DD = dot(D, D);
-  const float root = sqrt(max(at.f, 0.0));
-  const float depth = D0_scale.w * (dot(a, D) - root) / DD;
-  if (coverage <= 0.0 || depth < frame.near) discard;
-  gl_FragDepth = frame.near / depth;
-
-  vec3 rgb = colour.rgb;
-  if (kLit) {
-    const vec3 ball_normal = -(cross(D, cross(a, D)) + root * D) / DD;
-    const vec3 normal = normalize(A_inverse_transposed * ball_normal);
-    const vec2 uv = gl_FragCoord.xy - frame.views[gl_ViewIndex].principal;
-    const vec3 ray = vec3(0.0, 0.0, 1.0) + uv.x * rayPerU() + uv.y * rayPerV();
-    rgb = shade(rgb, normal, ray, edgeDistance(at));
-  }
-  result = vec4(rgb, colour.a * coverage);
+  const Surface surface =
+      surfaceAt(D0_scale.xyz, Du, Dv, D0_scale.w, a, A_inverse_transposed, x, at.f);
+  if (coverage <= 0.0 || surface.depth < frame.near) discard;
+  gl_FragDepth = frame.near / surface.depth;
+  result = vec4(shade(colour.rgb, normalize(surface.normal), rayThrough(gl_FragCoord.xy),
+                      edgeDistance(at)),
+                colour.a * coverage);
 }

@@ -27,7 +27,7 @@ vec3 clipped(vec3 p, vec3 q) {
 vec2 shareInPicture(vec2 p, vec2 q, float margin) {
   const vec2 d = q - p;
   const vec2 low = vec2(-margin) - p;
-  const vec2 high = frame.views[gl_ViewIndex].size + margin - p;
+  const vec2 high = VIEW(size) + margin - p;
   vec2 share = vec2(0.0, 1.0);
   for (int i = 0; i < 2; ++i) {
     if (abs(d[i]) < 1e-6) {

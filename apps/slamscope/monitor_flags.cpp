@@ -75,6 +75,15 @@ void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--select", rest.selected, "ids of features whose pairs `--mode selected` shows")
       ->delimiter(',')
       ->group(group);
+  verb.add_option(
+          "--most", rest.most_pairs,
+          "of the pairs of the mode only so many, those with the largest relative covariance")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  verb.add_option("--least-area", rest.least_area,
+                  "m^2: no pair whose relative covariance has a smaller sqrt(det)")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
   verb.add_option("--axis", flags.axis,
                   "length of a semi-axis: sigma (k sqrt(lambda), metres), eigenvalue (the paper's: "
                   "gain x lambda), log")

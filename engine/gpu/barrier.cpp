@@ -29,6 +29,16 @@ Use depthTested() {
           Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead,
           Layout::eDepthAttachmentOptimal};
 }
+Use computed() {
+  return {Stage::eComputeShader,
+          Access::eShaderSampledRead | Access::eShaderStorageRead | Access::eShaderStorageWrite};
+}
+Use readByAll() {
+  return {Stage::eComputeShader | Stage::eVertexShader | Stage::eFragmentShader |
+              Stage::eDrawIndirect | Stage::eTransfer,
+          Access::eShaderSampledRead | Access::eShaderStorageRead | Access::eShaderStorageWrite |
+              Access::eIndirectCommandRead | Access::eTransferRead};
+}
 Use presented() {
   return {Stage::eBottomOfPipe, {}, Layout::ePresentSrcKHR};
 }
@@ -54,6 +64,14 @@ void barrier(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Image
 void barrier(const vk::raii::CommandBuffer& commands, const DeviceImage& image, const Use& from,
              const Use& to) {
   barrier(commands, image.handle(), image.aspect(), from, to);
+}
+
+void barrier(const vk::raii::CommandBuffer& commands, const Use& from, const Use& to) {
+  const vk::MemoryBarrier2 memory_barrier = {.srcStageMask = from.stage,
+                                             .srcAccessMask = from.access,
+                                             .dstStageMask = to.stage,
+                                             .dstAccessMask = to.access};
+  commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &memory_barrier});
 }
 
 void barrierToHost(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags2 stage,

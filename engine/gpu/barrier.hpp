@@ -19,6 +19,10 @@ struct Use {
 [[nodiscard]] Use sampledInFragment();
 [[nodiscard]] Use drawnInto();
 [[nodiscard]] Use depthTested();
+/// Of buffers: read and written by compute shaders; read by them, by drawing and as arguments of
+/// indirect commands.
+[[nodiscard]] Use computed();
+[[nodiscard]] Use readByAll();
 /// For swapchain images, handed to the presentation engine by a semaphore.
 [[nodiscard]] Use presented();
 
@@ -27,6 +31,9 @@ void barrier(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Image
              const Use& from, const Use& to);
 void barrier(const vk::raii::CommandBuffer& commands, const DeviceImage& image, const Use& from,
              const Use& to);
+
+/// Whatever `from` wrote to buffers, `to` sees (layouts play no part).
+void barrier(const vk::raii::CommandBuffer& commands, const Use& from, const Use& to);
 
 /// What the device wrote to buffers by copying or computing is seen by the host after the fence.
 void barrierToHost(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags2 stage,

@@ -18,11 +18,17 @@ bool Buffer::reserve(std::size_t bytes) {
   return true;
 }
 
+vk::raii::BufferView Buffer::texels(vk::Format format) const {
+  return {core_->device(),
+          vk::BufferViewCreateInfo{.buffer = *buffer_, .format = format, .range = VK_WHOLE_SIZE}};
+}
+
 void Buffer::create() {
   buffer_ = {core_->device(), vk::BufferCreateInfo{.size = bytes_, .usage = usage_}};
   memory_ = allocate(*core_, buffer_.getMemoryRequirements(), use_);
   buffer_.bindMemory(*memory_, 0);
-  mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+  if (use_ != MemoryUse::kDevice)
+    mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
 }
 
 }  // namespace slamscope::engine::gpu

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "engine/gpu/barrier.hpp"
+#include "engine/gpu/compute_pipeline.hpp"
 #include "engine/gpu/descriptors.hpp"
-#include "engine/gpu/shader.hpp"
 #include "engine/gpu/submission.hpp"
 
 namespace slamscope::engine::gpu {
@@ -24,19 +24,11 @@ std::vector<std::byte> runCompute(const Gpu& gpu, std::span<const std::uint32_t>
   set.writeBuffer(0, in.handle());
   set.writeBuffer(1, out.handle());
 
-  const vk::DescriptorSetLayout set_layout = set.layout();
-  const vk::raii::PipelineLayout layout(core.device(),
-                                        vk::PipelineLayoutCreateInfo{}.setSetLayouts(set_layout));
-  const vk::raii::ShaderModule shader = makeShader(core, code);
-  const vk::raii::Pipeline pipeline(
-      core.device(), nullptr,
-      vk::ComputePipelineCreateInfo{.stage = {.stage = kStage, .module = *shader, .pName = "main"},
-                                    .layout = *layout});
-
+  const ComputePipeline pipeline(core, code, {set.layout()});
   Submission submission(core);
   const auto& commands = submission.begin();
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
-  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout, 0, set.handle(), {});
+  const vk::DescriptorSet handle = set.handle();
+  pipeline.bind(commands, {&handle, 1});
   commands.dispatch(groups, 1, 1);
   barrierToHost(commands, vk::PipelineStageFlagBits2::eComputeShader,
                 vk::AccessFlagBits2::eShaderStorageWrite);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/core.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/gpu/device.hpp"
@@ -19,7 +20,13 @@ Core::Core(const GpuOptions& options)
   family_ = drawingFamily(physical_);
   memory_ = physical_.getMemoryProperties();
   limits_ = physical_.getProperties().limits;
-  device_ = makeDevice(physical_, family_, !options.instance_extensions.empty());
+  if (options.most_texels > 0) {
+    limits_.maxTexelBufferElements = std::min(limits_.maxTexelBufferElements, options.most_texels);
+  }
+  wide_atomics_ = options.wide_atomics && hasWideAtomics(physical_);
+  device_ = makeDevice(physical_, {.family = family_,
+                                   .present = !options.instance_extensions.empty(),
+                                   .wide_atomics = wide_atomics_});
   queue_ = device_.getQueue(family_, 0);
 }
 

@@ -24,6 +24,8 @@ class Core {
   [[nodiscard]] std::uint32_t family() const { return family_; }
   [[nodiscard]] const vk::PhysicalDeviceMemoryProperties& memory() const { return memory_; }
   [[nodiscard]] const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+  /// 64-bit atomics in storage buffers may be used.
+  [[nodiscard]] bool wideAtomics() const { return wide_atomics_; }
 
  private:
   MessageLog log_;
@@ -35,6 +37,7 @@ class Core {
   std::uint32_t family_ = 0;
   vk::PhysicalDeviceMemoryProperties memory_;
   vk::PhysicalDeviceLimits limits_;
+  bool wide_atomics_ = false;
   vk::raii::Device device_ = nullptr;
   vk::raii::Queue queue_ = nullptr;
 };

@@ -44,6 +44,14 @@ void DescriptorSet::writeBuffer(std::uint32_t binding, vk::Buffer buffer) const 
       {});
 }
 
+void DescriptorSet::writeTexels(std::uint32_t binding, vk::BufferView view) const {
+  core_->device().updateDescriptorSets(
+      vk::WriteDescriptorSet{
+          .dstSet = *set_, .dstBinding = binding, .descriptorType = typeOf(binding)}
+          .setTexelBufferView(view),
+      {});
+}
+
 void DescriptorSet::writeImage(std::uint32_t binding, std::uint32_t element, vk::ImageView view,
                                vk::Sampler sampler) const {
   const vk::DescriptorImageInfo info = {.sampler = sampler,

@@ -20,6 +20,7 @@ class DescriptorSet {
   DescriptorSet(const Core& core, const std::vector<Binding>& bindings);
 
   void writeBuffer(std::uint32_t binding, vk::Buffer buffer) const;
+  void writeTexels(std::uint32_t binding, vk::BufferView view) const;
   /// `element` of an array binding.
   void writeImage(std::uint32_t binding, std::uint32_t element, vk::ImageView view,
                   vk::Sampler sampler) const;

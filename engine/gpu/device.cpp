@@ -165,18 +165,28 @@ std::uint32_t drawingFamily(const vk::raii::PhysicalDevice& physical) {
   throw NoVulkanDevice("the Vulkan device has no queue that draws and computes");
 }
 
-vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint32_t family,
-                            bool present) {
+bool hasWideAtomics(const vk::raii::PhysicalDevice& physical) {
+  const auto chain =
+      physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+  return chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 == VK_TRUE &&
+         chain.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics == VK_TRUE;
+}
+
+vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical,
+                            const DeviceRequest& request) {
   FeatureChain chain;
   for (const Need& need : needs(chain)) *need.flag = VK_TRUE;
+  const vk::Bool32 wide = request.wide_atomics ? VK_TRUE : VK_FALSE;
+  chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 = wide;
+  chain.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics = wide;
   const float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue = {
-      .queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
+      .queueFamilyIndex = request.family, .queueCount = 1, .pQueuePriorities = &priority};
   const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
   return {physical, vk::DeviceCreateInfo{.pNext = &chain.get<vk::PhysicalDeviceFeatures2>(),
                                          .queueCreateInfoCount = 1,
                                          .pQueueCreateInfos = &queue,
-                                         .enabledExtensionCount = present ? 1U : 0U,
+                                         .enabledExtensionCount = request.present ? 1U : 0U,
                                          .ppEnabledExtensionNames = &swapchain}};
 }
 

@@ -24,8 +24,17 @@ struct Candidate {
 /// First queue family that draws, computes and copies.
 [[nodiscard]] std::uint32_t drawingFamily(const vk::raii::PhysicalDevice& physical);
 
-/// Device with exactly the features the engine uses; `present` adds the swapchain.
+/// Whether storage buffers take 64-bit atomics: what the splatter needs, and nothing else does.
+[[nodiscard]] bool hasWideAtomics(const vk::raii::PhysicalDevice& physical);
+
+struct DeviceRequest {
+  std::uint32_t family = 0;
+  bool present = false;  ///< adds the swapchain
+  bool wide_atomics = false;
+};
+
+/// Device with exactly the features the engine uses.
 [[nodiscard]] vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical,
-                                          std::uint32_t family, bool present);
+                                          const DeviceRequest& request);
 
 }  // namespace slamscope::engine::gpu

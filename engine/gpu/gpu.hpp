@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,10 @@ struct GpuOptions {
   bool validation = false;
   /// What a window asks for (glfwGetRequiredInstanceExtensions). Not empty: the device can present.
   std::vector<std::string> instance_extensions = {};
+  /// Off: the device is taken for one without 64-bit atomics in storage buffers.
+  bool wide_atomics = true;
+  /// Not 0: the device is taken for one whose texel buffers have no more elements than this.
+  std::uint32_t most_texels = 0;
 };
 
 /// A Vulkan device to draw with, shared by everything that draws; used from one thread at a time.

@@ -3,30 +3,25 @@
 
 #include <array>
 
+#include "engine/gpu/specialization.hpp"
+
 namespace slamscope::engine::gpu {
 
 namespace {
 
-vk::PipelineColorBlendAttachmentState blendState(bool blend) {
+vk::PipelineColorBlendAttachmentState blendState(const PipelineInfo& info) {
   using Factor = vk::BlendFactor;
+  using Channel = vk::ColorComponentFlagBits;
+  constexpr auto kAll = Channel::eR | Channel::eG | Channel::eB | Channel::eA;
   // Destination alpha stays 1: pictures are opaque.
-  return {.blendEnable = blend ? VK_TRUE : VK_FALSE,
+  return {.blendEnable = info.blend ? VK_TRUE : VK_FALSE,
           .srcColorBlendFactor = Factor::eSrcAlpha,
           .dstColorBlendFactor = Factor::eOneMinusSrcAlpha,
           .colorBlendOp = vk::BlendOp::eAdd,
           .srcAlphaBlendFactor = Factor::eZero,
           .dstAlphaBlendFactor = Factor::eOne,
           .alphaBlendOp = vk::BlendOp::eAdd,
-          .colorWriteMask = vk::ColorComponentFlagBits::eR | vk::ColorComponentFlagBits::eG |
-                            vk::ColorComponentFlagBits::eB | vk::ColorComponentFlagBits::eA};
-}
-
-std::vector<vk::SpecializationMapEntry> entriesOf(const std::vector<vk::Bool32>& constants) {
-  std::vector<vk::SpecializationMapEntry> entries;
-  for (std::uint32_t i = 0; i < constants.size(); ++i) {
-    entries.push_back({i, static_cast<std::uint32_t>(i * sizeof(vk::Bool32)), sizeof(vk::Bool32)});
-  }
-  return entries;
+          .colorWriteMask = info.colour_write ? kAll : vk::ColorComponentFlags()};
 }
 
 }  // namespace
@@ -35,18 +30,16 @@ Pipeline::Pipeline(const Core& core, const PipelineInfo& info)
     : layout_(core.device(), vk::PipelineLayoutCreateInfo{}.setSetLayouts(info.sets)) {
   const vk::raii::ShaderModule vertex = makeShader(core, info.vertex);
   const vk::raii::ShaderModule fragment = makeShader(core, info.fragment);
-  const auto entries = entriesOf(info.constants);
-  const auto constants =
-      vk::SpecializationInfo{}.setMapEntries(entries).setData<vk::Bool32>(info.constants);
+  const Specialization specialization(info.constants);
   const std::array stages = {
       vk::PipelineShaderStageCreateInfo{.stage = vk::ShaderStageFlagBits::eVertex,
                                         .module = *vertex,
                                         .pName = "main",
-                                        .pSpecializationInfo = &constants},
+                                        .pSpecializationInfo = specialization.info()},
       vk::PipelineShaderStageCreateInfo{.stage = vk::ShaderStageFlagBits::eFragment,
                                         .module = *fragment,
                                         .pName = "main",
-                                        .pSpecializationInfo = &constants}};
+                                        .pSpecializationInfo = specialization.info()}};
 
   const vk::PipelineVertexInputStateCreateInfo vertex_input;
   const vk::PipelineInputAssemblyStateCreateInfo assembly = {
@@ -58,7 +51,7 @@ Pipeline::Pipeline(const Core& core, const PipelineInfo& info)
       .depthTestEnable = info.depth_test || info.depth_write ? VK_TRUE : VK_FALSE,
       .depthWriteEnable = info.depth_write ? VK_TRUE : VK_FALSE,
       .depthCompareOp = info.depth_test ? vk::CompareOp::eGreaterOrEqual : vk::CompareOp::eAlways};
-  const auto attachment = blendState(info.blend);
+  const auto attachment = blendState(info);
   const auto blend = vk::PipelineColorBlendStateCreateInfo{}.setAttachments(attachment);
   const std::array dynamic_states = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
   const auto dynamic = vk::PipelineDynamicStateCreateInfo{}.setDynamicStates(dynamic_states);

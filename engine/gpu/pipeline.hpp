@@ -16,7 +16,8 @@ struct PipelineInfo {
   bool blend = true;        ///< over what is there, by the alpha that the shader gives
   bool depth_test = false;  ///< nearer or equal wins; depth is reversed
   bool depth_write = false;
-  std::vector<vk::Bool32> constants = {};  ///< specialization constants 0, 1, …
+  bool colour_write = true;
+  std::vector<std::uint32_t> constants = {};  ///< specialization constants 0, 1, …
 };
 
 /// Pipeline that draws triangle strips made by the vertex shader alone (no vertex input), into all

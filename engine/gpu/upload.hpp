@@ -9,6 +9,24 @@
 
 namespace slamscope::engine::gpu {
 
+/// A picture of the host on its way to the device.
+class Staging {
+ public:
+  Staging(const Core& core, std::size_t bytes_per_texel);
+
+  /// Copies tightly packed rows; the device must not be reading. Throws std::invalid_argument where
+  /// the number of bytes is not that of the extent.
+  void write(vk::Extent2D extent, std::span<const std::byte> texels);
+  /// Records the copy over `layer` of an image of the same extent in the layout of copyTarget().
+  void recordCopy(const vk::raii::CommandBuffer& commands, const DeviceImage& image,
+                  std::uint32_t layer) const;
+
+ private:
+  std::size_t bytes_per_texel_;
+  vk::Extent2D extent_;
+  Buffer buffer_;
+};
+
 /// A one-layer image that shaders sample and the host fills. Starts as one texel, grows or shrinks
 /// with what is written into it.
 class Texture {
@@ -28,8 +46,7 @@ class Texture {
  private:
   const Core* core_;
   vk::Format format_;
-  std::size_t bytes_per_texel_;
-  Buffer staging_;
+  Staging staging_;
   std::unique_ptr<DeviceImage> image_;
   bool pending_ = false;
 };

@@ -13,6 +13,8 @@ namespace slamscope::engine {
 
 namespace {
 
+constexpr std::uint32_t kWhole = 0;  // as in ellipsoids.frag
+
 gpu::PipelineInfo pipelineInfo(const PassSetup& setup, const Instances& instances, bool lit) {
   return {.vertex = shaderCode("ellipsoids_vert"),
           .fragment = shaderCode("ellipsoids_frag"),
@@ -20,7 +22,7 @@ gpu::PipelineInfo pipelineInfo(const PassSetup& setup, const Instances& instance
           .view_mask = setup.view_mask,
           .depth_test = true,
           .depth_write = true,
-          .constants = {lit ? VK_TRUE : VK_FALSE}};
+          .constants = {lit ? VK_TRUE : VK_FALSE, kWhole}};
 }
 
 bool orthogonal(const Eigen::Matrix3d& axes) {

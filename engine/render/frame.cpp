@@ -45,7 +45,8 @@ struct Frame::Parts {
                 .extent = size.extent,
                 .layers = size.views,
                 .usage = vk::ImageUsageFlagBits::eColorAttachment |
-                         vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eSampled}),
+                         vk::ImageUsageFlagBits::eTransferSrc |
+                         vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eSampled}),
         depth(core, {.format = vk::Format::eD32Sfloat,
                      .extent = size.extent,
                      .layers = size.views,
@@ -95,11 +96,7 @@ const vk::raii::CommandBuffer& Frame::record(std::span<const View> views, const 
 
   const vk::raii::CommandBuffer& commands = parts_->submission.begin();
   parts_->timestamps.begin(commands);
-  barrier(commands, parts_->colour, gpu::unused(), gpu::drawnInto());
-  barrier(commands, parts_->depth, gpu::unused(), gpu::depthTested());
-  parts_->renderer.record(
-      commands, {.colour = parts_->colour.view(), .depth = parts_->depth.view(), .extent = extent},
-      stats);
+  parts_->renderer.record(commands, {.colour = parts_->colour, .depth = parts_->depth}, stats);
   if (parts_->lens) {
     parts_->lens->record(commands);
   } else {
@@ -128,6 +125,7 @@ const gpu::DeviceImage& Frame::colour() const {
 FrameStats Frame::stats() const {
   FrameStats stats = parts_->stats;
   stats.gpu_ms = parts_->timestamps.elapsedMs();
+  stats.pairs = parts_->renderer.pairStats();
   return stats;
 }
 

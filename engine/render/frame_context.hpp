@@ -26,6 +26,13 @@ struct FrameContext {
   /// One draw of a strip of `vertices` for each instance, into all views; counted under `pass`.
   void draw(const std::string& pass, const gpu::Pipeline& pipeline, vk::DescriptorSet pass_set,
             int vertices, int instances) const;
+  /// The same for a number of instances that the device knows (vk::DrawIndirectCommand).
+  void drawIndirect(const std::string& pass, const gpu::Pipeline& pipeline,
+                    vk::DescriptorSet pass_set, vk::Buffer arguments, std::size_t offset) const;
+
+ private:
+  void bind(const gpu::Pipeline& pipeline, vk::DescriptorSet pass_set) const;
+  [[nodiscard]] FrameStats::Pass& counted(const std::string& pass) const;
 };
 
 }  // namespace slamscope::engine

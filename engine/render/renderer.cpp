@@ -6,10 +6,11 @@ namespace slamscope::engine {
 Renderer::Renderer(const gpu::Core& core, int views)
     : frame_buffer_(core, sizeof(interop::FrameData), vk::BufferUsageFlagBits::eUniformBuffer,
                     gpu::MemoryUse::kUpload),
-      frame_set_(core, {{.binding = 0,
-                         .type = vk::DescriptorType::eUniformBuffer,
-                         .stages = vk::ShaderStageFlagBits::eVertex |
-                                   vk::ShaderStageFlagBits::eFragment}}),
+      frame_set_(core,
+                 {{.binding = 0,
+                   .type = vk::DescriptorType::eUniformBuffer,
+                   .stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment |
+                             vk::ShaderStageFlagBits::eCompute}}),
       setup_{.core = core,
              .frame_layout = frame_set_.layout(),
              .view_mask = (1U << static_cast<unsigned>(views)) - 1U},
@@ -33,6 +34,11 @@ int Renderer::update(const ViewSet& views, const Scene& scene) {
   lines_.update(scene.lines, views, not_drawn);
   arrows_.update(scene.arrows, views, not_drawn);
   cones_.update(scene.cones, views, not_drawn);
+  some_pairs_ = scene.pairs && scene.pairs->points;
+  if (some_pairs_) {
+    if (!pairs_) pairs_.emplace(setup_);
+    pairs_->update(*scene.pairs, views);
+  }
   ellipsoids_.update(scene.ellipsoids, views, not_drawn);
   labels_.update(scene.labels, views, not_drawn);
   rects_.update(scene.rects, not_drawn);
@@ -45,34 +51,37 @@ int Renderer::update(const ViewSet& views, const Scene& scene) {
 
 void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
                       FrameStats& stats) {
-  background_.recordUpload(commands);
+  const bool background_stands = background_.recordCopies(commands, target.colour);
+  barrier(commands, target.depth, gpu::unused(), gpu::depthTested());
   letter_texture_->recordUpload(commands);
+  if (some_pairs_) pairs_->recordChoice(commands, frame_set_.handle());
 
   const vk::RenderingAttachmentInfo colour = {
-      .imageView = target.colour,
+      .imageView = target.colour.view(),
       .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
-      .loadOp = vk::AttachmentLoadOp::eClear,
+      .loadOp = background_stands ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
       .storeOp = vk::AttachmentStoreOp::eStore,
       .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
   const vk::RenderingAttachmentInfo depth = {
-      .imageView = target.depth,
+      .imageView = target.depth.view(),
       .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
       .loadOp = vk::AttachmentLoadOp::eClear,
       .storeOp = vk::AttachmentStoreOp::eDontCare,
       .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};  // reversed: infinitely far
-  const vk::Rect2D area = {.extent = target.extent};
+  const vk::Extent2D extent = target.colour.extent();
+  const vk::Rect2D area = {.extent = extent};
   commands.beginRendering({.renderArea = area,
                            .layerCount = 1,
                            .viewMask = setup_.view_mask,
                            .colorAttachmentCount = 1,
                            .pColorAttachments = &colour,
                            .pDepthAttachment = &depth});
-  commands.setViewport(
-      0, vk::Viewport{.x = -kBorderPx,
-                      .y = -kBorderPx,
-                      .width = static_cast<float>(target.extent.width) + 2.0F * kBorderPx,
-                      .height = static_cast<float>(target.extent.height) + 2.0F * kBorderPx,
-                      .maxDepth = 1.0F});
+  commands.setViewport(0,
+                       vk::Viewport{.x = -kBorderPx,
+                                    .y = -kBorderPx,
+                                    .width = static_cast<float>(extent.width) + 2.0F * kBorderPx,
+                                    .height = static_cast<float>(extent.height) + 2.0F * kBorderPx,
+                                    .maxDepth = 1.0F});
   commands.setScissor(0, area);
 
   const FrameContext context = {commands, frame_set_.handle(), lit_, stats};
@@ -80,12 +89,18 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
   lines_.record(context);
   arrows_.record(context);
   cones_.recordInside(context);
+  if (some_pairs_) pairs_->record(context);
   ellipsoids_.record(context);
   cones_.recordEdges(context);
   labels_.record(context);
   rects_.record(context);
   texts_.record(context);
   commands.endRendering();
+  if (some_pairs_) pairs_->recordReadback(commands);
+}
+
+FrameStats::Pairs Renderer::pairStats() const {
+  return some_pairs_ ? pairs_->stats() : FrameStats::Pairs{};
 }
 
 }  // namespace slamscope::engine

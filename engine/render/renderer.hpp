@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "engine/render/arrows.hpp"
 #include "engine/render/background.hpp"
@@ -9,15 +10,15 @@
 #include "engine/render/ellipsoids.hpp"
 #include "engine/render/letters.hpp"
 #include "engine/render/lines.hpp"
+#include "engine/render/pairs.hpp"
 #include "engine/render/rects.hpp"
 
 namespace slamscope::engine {
 
-/// Where to draw: one layer a view.
+/// Where to draw: one layer a view, of the same extent.
 struct RenderTarget {
-  vk::ImageView colour;
-  vk::ImageView depth;
-  vk::Extent2D extent;
+  const gpu::DeviceImage& colour;
+  const gpu::DeviceImage& depth;
 };
 
 /// The passes, once, in the order they are drawn.
@@ -29,10 +30,12 @@ class Renderer {
   /// Takes the frame over to memory that the device sees, which must not be drawing. Returns the
   /// number of glyphs left out because of numbers that are not finite.
   int update(const ViewSet& views, const Scene& scene);
-  /// Records uploads and the drawing; the target's images are in the layouts of gpu::drawnInto()
-  /// and gpu::depthTested().
+  /// Records uploads and the drawing. What the target held is lost; its images are left in the
+  /// layouts of gpu::drawnInto() and gpu::depthTested().
   void record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
               FrameStats& stats);
+  /// Of the frame last waited for.
+  [[nodiscard]] FrameStats::Pairs pairStats() const;
 
  private:
   gpu::Buffer frame_buffer_;
@@ -44,6 +47,8 @@ class Renderer {
   LinePass lines_;
   ArrowPass arrows_;
   ConePass cones_;
+  std::optional<PairPass> pairs_;  ///< from the first scene on that has some
+  bool some_pairs_ = false;
   EllipsoidPass ellipsoids_;
   std::shared_ptr<LetterTexture> letter_texture_;
   LetterPass labels_;

@@ -24,6 +24,13 @@ namespace {
 #include "lens_vert.h"
 #include "lines_frag.h"
 #include "lines_vert.h"
+#include "pairs_list_comp.h"
+#include "pairs_place_comp.h"
+#include "pairs_rank_comp.h"
+#include "pairs_resolve_frag.h"
+#include "pairs_splat_comp.h"
+#include "pairs_tiles_vert.h"
+#include "pairs_vert.h"
 #include "rects_frag.h"
 #include "rects_vert.h"
 #include "text_frag.h"
@@ -42,6 +49,13 @@ const std::array kShaders = {ShaderCode{"arrows_frag", arrows_frag},
                              ShaderCode{"lens_vert", lens_vert},
                              ShaderCode{"lines_frag", lines_frag},
                              ShaderCode{"lines_vert", lines_vert},
+                             ShaderCode{"pairs_list_comp", pairs_list_comp},
+                             ShaderCode{"pairs_place_comp", pairs_place_comp},
+                             ShaderCode{"pairs_rank_comp", pairs_rank_comp},
+                             ShaderCode{"pairs_resolve_frag", pairs_resolve_frag},
+                             ShaderCode{"pairs_splat_comp", pairs_splat_comp},
+                             ShaderCode{"pairs_tiles_vert", pairs_tiles_vert},
+                             ShaderCode{"pairs_vert", pairs_vert},
                              ShaderCode{"rects_frag", rects_frag},
                              ShaderCode{"rects_vert", rects_vert},
                              ShaderCode{"text_frag", text_frag},

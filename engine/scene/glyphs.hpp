@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -70,9 +71,12 @@ struct ScreenRect {
   Rgba colour;
 };
 
+struct PairGlyphs;  // engine/scene/pair_glyphs.hpp
+
 /// Everything of one frame.
 struct Scene {
   std::vector<Ellipsoid> ellipsoids;
+  std::shared_ptr<const PairGlyphs> pairs;  ///< none: null
   std::vector<Cone> cones;
   std::vector<Arrow> arrows;
   std::vector<Polyline> lines;

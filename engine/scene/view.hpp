@@ -16,7 +16,7 @@ struct Pinhole {
   double skew = 0.0;                              ///< px
 };
 
-/// 8-bit picture, tightly packed rows of R, G, B, A.
+/// 8-bit picture, tightly packed rows of R, G, B, A; A = 255.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;

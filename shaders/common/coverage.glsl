@@ -33,6 +33,24 @@ ConicPoint evaluate(Conic c, vec2 x) {
 // Distance to the outline in pixels to first order, positive inside.
 float edgeDistance(ConicPoint at) { return at.f / max(2.0 * length(at.gradient), 1e-30); }
 
+// True where all of the pixel is inside: where its four corners are, as the inside is convex.
+bool coversPixel(Conic c, ConicPoint at) {
+  const vec2 g = at.gradient;
+  const float across = min(0.5 * c.q.y - abs(g.x + g.y), -0.5 * c.q.y - abs(g.x - g.y));
+  return at.f + 0.25 * (c.q.x + c.q.z) + across >= 0.0;
+}
+
+// False where none of the pixel is inside. True may be wrong in corners: along the direction in
+// which the conic's value rises fastest, no farther than the pixel reaches, is all that is tried.
+bool touchesPixel(Conic c, ConicPoint at) {
+  const float size = max(length(at.gradient), 1e-30);
+  const vec2 n = at.gradient / size;
+  const float curvature = c.q.x * n.x * n.x + 2.0 * c.q.y * n.x * n.y + c.q.z * n.y * n.y;
+  float reach = 0.5 * (abs(n.x) + abs(n.y));
+  reach = curvature < 0.0 ? min(reach, -size / curvature) : reach;
+  return at.f + (2.0 * size + curvature * reach) * reach >= 0.0;
+}
+
 // Of the inside of a conic. An ellipse is cut into four strips across the direction that its edge
 // crosses most directly; each is exact along its length, so that ellipses far smaller than a pixel
 // come out right too. What is no ellipse (it passes beside the eye) is near and large: its edge is

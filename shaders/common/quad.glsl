@@ -5,7 +5,7 @@
 
 // Depth is left to the fragment shader, or not tested.
 vec4 clipFromPixel(vec2 px) {
-  const vec2 size = frame.views[gl_ViewIndex].size;
+  const vec2 size = VIEW(size);
   return vec4(2.0 * (px + frame.border_px) / (size + 2.0 * frame.border_px) - 1.0, 0.5, 1.0);
 }
 
@@ -18,12 +18,12 @@ vec2 stripCorner() { return vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 2.0 
 // Corner of the part of an upright box that lies in the picture.
 vec4 boxCorner(vec2 low, vec2 high) {
   const vec2 corner = mix(low, high, 0.5 + 0.5 * stripCorner());
-  return clipFromPixel(clamp(corner, vec2(0.0), frame.views[gl_ViewIndex].size));
+  return clipFromPixel(clamp(corner, vec2(0.0), VIEW(size)));
 }
 
 // True where a point may be a vertex as it is.
 bool insideBorder(vec2 px) {
-  const vec2 size = frame.views[gl_ViewIndex].size;
+  const vec2 size = VIEW(size);
   return all(greaterThan(px, vec2(-frame.border_px + 1.0))) &&
          all(lessThan(px, size + frame.border_px - 1.0));
 }

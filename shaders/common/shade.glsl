@@ -6,7 +6,7 @@ layout(constant_id = 0) const bool kLit = true;
 vec3 shade(vec3 colour, vec3 normal, vec3 ray, float edge_px) {
   if (!kLit) return colour;
   const float lamp = max(-dot(normal, normalize(ray)), 0.0);
-  const float sky = 0.5 + 0.5 * dot(normal, frame.views[gl_ViewIndex].up_eye);
+  const float sky = 0.5 + 0.5 * dot(normal, VIEW(up_eye));
   const vec3 lit = colour * (0.30 + 0.45 * lamp + 0.35 * sky);
   // A dark rim keeps overlapping glyphs of one colour apart, and apart from the camera's picture.
   const float rim = 1.0 - smoothstep(0.6, 1.8, edge_px);

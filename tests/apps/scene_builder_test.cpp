@@ -32,37 +32,47 @@ engine::Scene sceneOf(const Shown& shown, const SceneStyle& style, const AlarmMa
   PathTrace path;
   path.add({0.0, 0.0});
   path.add(shown.snapshot.pose.head<2>());
-  return buildScene(
-      {.snapshot = shown.snapshot, .path = path, .clusters = shown.clusters, .alarms = alarms},
-      style);
+  return buildScene({.snapshot = shown.snapshot,
+                     .points = pointsOf(shown.snapshot),
+                     .path = path,
+                     .clusters = shown.clusters,
+                     .alarms = alarms},
+                    style);
 }
 
-/// The middle of the pair's line, where its ellipsoid belongs.
-double distanceToNearestMiddle(const Shown& shown, const Eigen::Vector3d& centre) {
-  double nearest = 1e9;
-  const auto& features = shown.snapshot.features;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    for (std::size_t j = i + 1; j < features.size(); ++j) {
-      nearest = std::min(nearest, (0.5 * (features[i] + features[j]) - centre.head<2>()).norm());
+/// Pairs that the device will choose, by the rules of engine::PairChoice.
+std::size_t chosenPairs(const engine::Scene& scene) {
+  const engine::PairChoice& choice = scene.pairs->choice;
+  const auto picked = [&](std::uint32_t i) {
+    return std::ranges::find(choice.touching, i) != choice.touching.end();
+  };
+  std::size_t count = 0;
+  const auto n = static_cast<std::uint32_t>(scene.pairs->points->count());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = i + 1; j < n; ++j) {
+      const bool different = choice.groups.empty() || choice.groups[i] != choice.groups[j];
+      const bool touching = choice.touching.empty() || picked(i) || picked(j);
+      count += different && touching ? 1 : 0;
     }
   }
-  return nearest;
+  return count - choice.left_out.size();
 }
 
-TEST(SceneBuilder, AllPairsOfFifteenFeaturesAre105EllipsoidsInTheMiddleOfTheirLines) {
-  const Shown shown = endOfRun();
-  const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::all});
-  ASSERT_EQ(scene.ellipsoids.size(), 105U);
+TEST(SceneBuilder, AllPairsOfFifteenFeaturesAre105WithTheirLines) {
+  const engine::Scene scene = sceneOf(endOfRun(), {.mode = slam::PairMode::all});
+  ASSERT_TRUE(scene.pairs);
+  EXPECT_EQ(chosenPairs(scene), 105U);
+  EXPECT_TRUE(scene.ellipsoids.empty());
   EXPECT_EQ(scene.cones.size(), 16U);
   EXPECT_EQ(scene.arrows.size(), 1U);
   EXPECT_EQ(scene.lines.size(), 106U);  // and the path
-  for (const engine::Ellipsoid& ellipsoid : scene.ellipsoids) {
-    EXPECT_LT(distanceToNearestMiddle(shown, ellipsoid.centre), 1e-12);
-    EXPECT_EQ(ellipsoid.centre.z(), 0.0);
-  }
-  // Twin: an ellipsoid at an end of its line would be seen.
-  const Eigen::Vector2d end = shown.snapshot.features.front();
-  EXPECT_GT(distanceToNearestMiddle(shown, {end.x(), end.y(), 0.0}), 1e-3);
+}
+
+TEST(SceneBuilder, ThinningIsLeftToTheDeviceAndLeavesTheLinesOut) {
+  const engine::Scene scene = sceneOf(endOfRun(), {.most_pairs = 20, .least_area = 1e-4});
+  EXPECT_EQ(scene.pairs->choice.most, 20U);
+  EXPECT_EQ(scene.pairs->choice.least_area, 1e-4);
+  EXPECT_EQ(scene.lines.size(), 1U);  // the path
 }
 
 TEST(SceneBuilder, BetweenClustersLeavesOutPairsInsideThem) {
@@ -73,7 +83,8 @@ TEST(SceneBuilder, BetweenClustersLeavesOutPairsInsideThem) {
     inside += members.size() * (members.size() - 1) / 2;
   }
   const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::between_clusters});
-  EXPECT_EQ(scene.ellipsoids.size(), 105U - inside);
+  EXPECT_EQ(chosenPairs(scene), 105U - inside);
+  EXPECT_EQ(scene.lines.size(), 106U - inside);
   EXPECT_GT(inside, 0U);
 }
 
@@ -101,7 +112,11 @@ TEST(SceneBuilder, MinMeanMaxStandsUnderneathAndAboveTheMeanForTheViewer) {
 TEST(SceneBuilder, SelectedShowsThePairsOfThePickedFeatureOnly) {
   const Shown shown = endOfRun();
   const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::selected, .selected = {3}});
-  EXPECT_EQ(scene.ellipsoids.size(), 14U);
+  EXPECT_EQ(chosenPairs(scene), 14U);
+  EXPECT_EQ(scene.lines.size(), 15U);
+  // One that is not in the map has no pairs; it does not stand for no condition.
+  const engine::Scene none = sceneOf(shown, {.mode = slam::PairMode::selected, .selected = {99}});
+  EXPECT_EQ(chosenPairs(none), 0U);
 }
 
 /// Feature 3 is flagged, with all its pairs, which had `last_good` before.
@@ -149,9 +164,9 @@ TEST(SceneBuilder, FlaggedIsMagentaInEveryModeAndNothingElseIs) {
   const Shown shown = endOfRun();
   const AlarmMarks alarms = thirdFlagged(shown, Eigen::Matrix2d::Identity());
   const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::all}, alarms);
-  EXPECT_EQ(ellipsoidCount(scene), 105U);
+  EXPECT_EQ(ellipsoidCount(scene), 14U);
   EXPECT_EQ(count(scene.ellipsoids, colour::kFlaggedEllipsoid), 14);
-  EXPECT_EQ(count(scene.ellipsoids, colour::kEllipsoid), 105 - 14);
+  EXPECT_EQ(chosenPairs(scene), 105U - 14U);
   EXPECT_EQ(count(scene.lines, colour::kFlaggedPair), 14);
   EXPECT_EQ(scene.cones.size(), 16U);
   EXPECT_EQ(count(scene.cones, colour::kFlagged), 1);
@@ -181,8 +196,14 @@ TEST(SceneBuilder, AxesAreThoseOfTheRelativeCovariance) {
 
 TEST(SceneBuilder, MapScaleScalesPlacesAndAxesAlike) {
   const Shown shown = endOfRun();
-  const engine::Scene full = sceneOf(shown, {});
-  const engine::Scene tenth = sceneOf(shown, {.map_scale = 0.1});
+  const engine::Scene all = sceneOf(shown, {.map_scale = 0.1});
+  EXPECT_EQ(all.pairs->scale, 0.1);
+  EXPECT_NEAR(all.pairs->axis.gain, 0.1 * 3.0, 1e-12);
+  const auto mode = slam::PairMode::min_mean_max;
+  const engine::Scene full = sceneOf(shown, {.mode = mode, .viewer_up = {0, 0, 1}});
+  const engine::Scene tenth =
+      sceneOf(shown, {.mode = mode, .map_scale = 0.1, .viewer_up = {0, 0, 1}});
+  ASSERT_EQ(full.ellipsoids.size(), tenth.ellipsoids.size());
   for (std::size_t k = 0; k < full.ellipsoids.size(); ++k) {
     EXPECT_LT((0.1 * full.ellipsoids[k].centre - tenth.ellipsoids[k].centre).norm(), 1e-12);
     EXPECT_LT((0.1 * full.ellipsoids[k].axes - tenth.ellipsoids[k].axes).norm(), 1e-12);

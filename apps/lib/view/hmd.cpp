@@ -21,18 +21,13 @@ std::shared_ptr<engine::Gpu> gpuFor(const MonitorOptions& view) {
 }
 
 /// Both eyes at one size (the left camera's unless another was asked for), each with its own K.
-std::array<engine::View, 2> eyeViews(const tracking::Rig& rig, int width, int height) {
+std::array<OutputCamera, 2> eyeCameras(const tracking::Rig& rig, int width, int height) {
   if (width <= 0 || height <= 0) {
     width = rig.cameras[0].info.width;
     height = rig.cameras[0].info.height;
   }
-  std::array<engine::View, 2> views;
-  for (std::size_t eye = 0; eye < views.size(); ++eye) {
-    OutputCamera camera = makeOutputCamera(rig.cameras[eye].info, width, height);
-    views[eye].camera = camera.pinhole;
-    views[eye].background.map = std::move(camera.map);
-  }
-  return views;
+  return {makeOutputCamera(rig.cameras[0].info, width, height),
+          makeOutputCamera(rig.cameras[1].info, width, height)};
 }
 
 /// The lenses of the display that the rig names, as the engine wears them.
@@ -61,8 +56,9 @@ Hmd::State::State(const HmdOptions& request)
       head(setup, registrationPairs()),
       pairs(setup),
       gpu(gpuFor(request.view)),
-      views(eyeViews(head.rig(), request.view.width, request.view.height)),
-      offscreen(gpu, views[0].camera.width, views[0].camera.height, 2) {
+      cameras(eyeCameras(head.rig(), request.view.width, request.view.height)),
+      offscreen(gpu, cameras[0].pinhole.width, cameras[0].pinhole.height, 2) {
+  for (std::size_t eye = 0; eye < views.size(); ++eye) views[eye].camera = cameras[eye].pinhole;
   offscreen.wear(eyeLenses(head.rig()));
   if (!request.view.output.empty()) output = openPictureOutput(request.view.output, setup.fps);
   if (!request.latency.empty()) latency.emplace(request.latency);
@@ -113,7 +109,8 @@ bool Hmd::State::next() {
   report.addStage("audit", watch.lap());
   for (std::size_t eye = 0; eye < views.size(); ++eye) {
     const auto& frame = pair->frame.eyes[eye];
-    views[eye].background.image = frame ? toImage(*frame) : nullptr;
+    views[eye].background =
+        frame ? backgroundOf(*frame, cameras[eye], gpu->device()) : engine::Background{};
   }
   return true;
 }

@@ -14,6 +14,7 @@ void Hmd::State::draw() {
   compose();
   report.addStage("scene", watch.lap());
   offscreen.draw(views, scene, render, pixels);
+  layer.drawn(offscreen.lastStats().pairs);
   const bool swapped = options.swap_eyes;
   layOut(options.layout, pixels[swapped ? 1 : 0], pixels[swapped ? 0 : 1], picture);
   report.addStage("draw", watch.lap());
@@ -44,7 +45,7 @@ HmdFrame Hmd::State::frameReport() const {
     if (!layer.newest()) continue;
     drawn.snapshot_time_s = seconds(layer.newest()->time);
     if (!sight.T_eye_map || scene.cones.empty()) continue;
-    drawn.ellipsoids = ellipsoidCount(scene);
+    drawn.ellipsoids = ellipsoidCount(scene, offscreen.lastStats().pairs);
     drawn.features = scene.cones.size() - 1;  // one is the robot's
     measureOverlay({.camera = views[eye].camera,
                     .T_camera_map = *sight.T_eye_map,

@@ -42,6 +42,7 @@ struct Hmd::State {
   HeadView head;
   PairPrefetch pairs;
   std::shared_ptr<engine::Gpu> gpu;
+  std::array<OutputCamera, 2> cameras;
   std::array<engine::View, 2> views;
   engine::Offscreen offscreen;
   std::unique_ptr<PictureOutput> output;

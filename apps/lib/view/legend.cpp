@@ -66,6 +66,19 @@ std::string axisText(const slam::AxisScale& axis) {
          (axis.gain == 1.0 ? " in true length" : format(" × gain %g", axis.gain));
 }
 
+/// Which of the mode's pairs are shown, where not all are, and whether with lines.
+void addChoice(const Legend& legend, std::vector<Row>& rows) {
+  const auto add = [&rows](std::string text) {
+    rows.emplace_back(engine::Rgba{.a = 0.0F}, std::move(text));
+  };
+  if (legend.most_pairs > 0) add(format("the %u largest of them only", legend.most_pairs));
+  if (legend.least_area > 0.0) {
+    add("only those of sqrt(det) ≥ (" + lengthText(std::sqrt(legend.least_area)) + ")²");
+  }
+  if (legend.lines_left_out)
+    add("too many pairs for lines: each stands midway between its features");
+}
+
 std::vector<Row> rowsOf(const Legend& legend) {
   const bool only_flagged = legend.mode == slam::PairMode::alarms;
   std::vector<Row> rows{{colour::kRobot, "robot and its path"}};
@@ -77,6 +90,7 @@ std::vector<Row> rowsOf(const Legend& legend) {
     const bool three = legend.mode == slam::PairMode::min_mean_max;
     rows.push_back({colour::kEllipsoid, std::string(three ? "least, mean, greatest" : "relative") +
                                             " covariance, " + axisText(legend.axis)});
+    if (!three) addChoice(legend, rows);
   }
   if (legend.flagged) {
     rows.emplace_back(colour::kFlagged, "flagged by the audit; faint: its last good size");
@@ -218,6 +232,29 @@ void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole
       .min_px = {px.margin, top}, .max_px = {right + px.padding, top + height}, .colour = kPanel};
 }
 
+namespace {
+
+/// Nearest first, no more than kMostLabels; whole up to twice the distance of the nearest, gone at
+/// five times.
+void fadeWithDistance(std::vector<engine::Label>& labels, const engine::View& view) {
+  constexpr std::size_t kMostLabels = 150;
+  const auto depth = [&view](const engine::Label& label) {
+    return (view.T_eye_scene * label.anchor).z();
+  };
+  std::erase_if(labels, [&](const engine::Label& label) { return depth(label) <= 0.0; });
+  if (labels.empty()) return;
+  std::ranges::stable_sort(labels, {}, depth);
+  const double nearest = depth(labels.front());
+  if (labels.size() > kMostLabels) labels.resize(kMostLabels);
+  for (engine::Label& label : labels) {
+    const double share = (5.0 - depth(label) / nearest) / 3.0;
+    label.colour.a *= static_cast<float>(std::clamp(share, 0.0, 1.0));
+  }
+  std::erase_if(labels, [](const engine::Label& label) { return label.colour.a <= 0.0F; });
+}
+
+}  // namespace
+
 void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAtlas& fonts) {
   std::vector<engine::PixelBox> obstacles;
   const auto pixel = [&view](const Eigen::Vector3d& p_scene) -> std::optional<Eigen::Vector2d> {
@@ -240,6 +277,7 @@ void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAt
   std::vector<engine::LabelRequest> requests;
   std::vector<engine::Label> in_view;
   const double text_px = Layout(view.camera).text;
+  fadeWithDistance(scene.labels, view);
   for (engine::Label& label : scene.labels) {
     label.height_px = text_px;
     const auto anchor = pixel(label.anchor);

@@ -21,8 +21,11 @@ struct Legend {
   int clusters = 0;          ///< 0: not shown
   double cluster_cut = 0.0;  ///< m
   bool automatic_cut = true;
-  bool flagged = false;   ///< something is, or could be, drawn as flagged by the audit
-  double px_per_m = 0.0;  ///< of the scene at the middle of the map; 0: no scale bar
+  std::uint32_t most_pairs = 0;  ///< as SceneStyle
+  double least_area = 0.0;       ///< m²
+  bool lines_left_out = false;   ///< there are too many pairs for a line each
+  bool flagged = false;          ///< something is, or could be, drawn as flagged by the audit
+  double px_per_m = 0.0;         ///< of the scene at the middle of the map; 0: no scale bar
 };
 
 /// Puts lines of text on a dark panel in the picture's upper left corner.
@@ -49,7 +52,7 @@ void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole
                engine::FontAtlas& fonts);
 
 /// Puts feature labels where they cover neither their cones nor each other; those without a free
-/// place are left out.
+/// place are left out, and of very many those farthest from the viewer, whose labels fade.
 void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAtlas& fonts);
 
 /// Eigenvalue (m²) whose semi-axis is drawn `length` m long: the inverse of AxisScale::semiAxis.

@@ -43,7 +43,6 @@ Monitor::State::State(const MonitorOptions& request)
     tracking::writeLabTruth(*setup.lab, request.lab_truth);
   }
   picture.view.camera = camera.pinhole;
-  picture.view.background.map = camera.map;
 }
 
 bool Monitor::State::runIsOver() const {
@@ -73,7 +72,7 @@ bool Monitor::State::next() {
   report.addStage("slam", watch.lap());
   layer.judge();
   report.addStage("audit", watch.lap());
-  picture.view.background.image = toImage(*frame);
+  picture.view.background = backgroundOf(*frame, camera, gpu->device());
   return true;
 }
 

@@ -13,6 +13,7 @@ void Monitor::State::draw() {
   compose();
   report.addStage("scene", watch.lap());
   offscreen.draw({&picture.view, 1}, picture.scene, picture.render, pixels);
+  layer.drawn(offscreen.lastStats().pairs);
   report.addStage("draw", watch.lap());
   if (drawn_frame == frame_count) return;
   drawn_frame = frame_count;
@@ -23,8 +24,8 @@ void Monitor::State::draw() {
 void Monitor::State::hand() {
   if (output) output->write(pixels.front());
   if (!options.report.empty()) report.add(frameReport());
-  const bool something =
-      !picture.scene.ellipsoids.empty() || (choices.mode == slam::PairMode::alarms && shown());
+  const bool something = ellipsoidCount(picture.scene, offscreen.lastStats().pairs) > 0 ||
+                         (choices.mode == slam::PairMode::alarms && shown());
   if (!options.compare.empty() && !start_picture && something) compare();
 }
 
@@ -52,7 +53,7 @@ FrameReport Monitor::State::frameReport() const {
   if (layer.newest()) frame.snapshot_time_s = seconds(layer.newest()->time);
   if (!shown()) return frame;
   const slam::Snapshot& snapshot = *layer.newest();
-  frame.ellipsoids = ellipsoidCount(picture.scene);
+  frame.ellipsoids = ellipsoidCount(picture.scene, offscreen.lastStats().pairs);
   frame.features = picture.scene.cones.size() - 1;  // one is the robot's
 
   Overlay overlay{.camera = camera.pinhole,

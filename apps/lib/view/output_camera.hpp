@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "engine/gpu/device_info.hpp"
 #include "engine/scene/view.hpp"
 #include "tracking/camera_info.hpp"
 #include "tracking/frame.hpp"
@@ -20,7 +21,11 @@ struct OutputCamera {
 [[nodiscard]] OutputCamera makeOutputCamera(const tracking::CameraInfo& source, int width,
                                             int height);
 
-/// The picture as the engine takes it.
-[[nodiscard]] std::shared_ptr<const engine::Image> toImage(const tracking::Frame& frame);
+/// The frame behind the scene, as the engine takes it. A processor that plays the device samples
+/// pictures some ten times slower than OpenCV does: there the frame is undistorted before it goes,
+/// to 1/32 px; a real device does it itself by the camera's map.
+[[nodiscard]] engine::Background backgroundOf(const tracking::Frame& frame,
+                                              const OutputCamera& camera,
+                                              const engine::DeviceInfo& device);
 
 }  // namespace slamscope::apps

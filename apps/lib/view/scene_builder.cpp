@@ -10,11 +10,27 @@
 namespace slamscope::apps {
 namespace {
 
+/// The length of a semi-axis as slam::AxisScale has it, in m of the scene.
+engine::AxisLaw axisLaw(const SceneStyle& style) {
+  const double gain = style.map_scale * style.axis.gain;
+  switch (style.axis.axis) {
+    case slam::Axis::eigenvalue:
+      return {.kind = engine::AxisLaw::Kind::linear, .gain = gain};
+    case slam::Axis::log:
+      return {.kind = engine::AxisLaw::Kind::logarithmic,
+              .gain = 0.1 * gain,
+              .unit = 1e-3 / style.axis.k};
+    case slam::Axis::sigma:
+      break;
+  }
+  return {.kind = engine::AxisLaw::Kind::root, .gain = gain * style.axis.k};
+}
+
 /// Builds one scene; holds what every part of it needs.
 class SceneBuilder {
  public:
   SceneBuilder(const Belief& belief, const SceneStyle& style)
-      : snapshot_(belief.snapshot), alarms_(belief.alarms), style_(style) {}
+      : belief_(belief), snapshot_(belief.snapshot), alarms_(belief.alarms), style_(style) {}
 
   void addRobot(const PathTrace& path) {
     engine::Polyline trace{.points = {}, .width_px = 2.5, .colour = colour::kRobot};
@@ -54,11 +70,32 @@ class SceneBuilder {
   }
 
   void addPair(const slam::FeaturePair& pair) {
-    const Eigen::Vector3d from = onFloor(snapshot_.features[static_cast<std::size_t>(pair.i)]);
-    const Eigen::Vector3d to = onFloor(snapshot_.features[static_cast<std::size_t>(pair.j)]);
+    const Eigen::Vector3d from = featureOnFloor(pair.i);
+    const Eigen::Vector3d to = featureOnFloor(pair.j);
     const bool flagged = alarms_.pair(id(pair.i), id(pair.j)) != nullptr;
     addLine(from, to, flagged ? colour::kFlaggedPair : colour::kPair);
     addEllipsoid(pair, relativeEllipsoid(pair.P_d, 0.5 * (from + to), style_));
+  }
+
+  /// The pairs of the mode, by the device; those that are flagged apart, for they have colours and
+  /// halos of their own.
+  void addPairsOnDevice() {
+    if (!belief_.points) return;
+    engine::PairGlyphs glyphs{.points = belief_.points,
+                              .scale = style_.map_scale,
+                              .axis = axisLaw(style_),
+                              .choice = choice(),
+                              .colour = colour::kEllipsoid};
+    for (const AlarmMarks::Pair& pair : alarms_.pairs()) {
+      const auto i = snapshot_.indexOf(pair.first);
+      const auto j = snapshot_.indexOf(pair.second);
+      if (!i || !j || i == j || !shown(*i, *j)) continue;
+      glyphs.choice.left_out.emplace_back(*i, *j);
+      addPair({std::min(*i, *j), std::max(*i, *j), slam::relativeCovariance(snapshot_, *i, *j)});
+    }
+    const bool all_shown = style_.most_pairs == 0 && style_.least_area == 0.0;
+    if (all_shown && belief_.points->pairCount() <= kMostPairLines) addPairLines();
+    scene_.pairs = std::make_shared<engine::PairGlyphs>(std::move(glyphs));
   }
 
   void addClusterPair(const slam::ClusterPair& pair) {
@@ -80,6 +117,50 @@ class SceneBuilder {
   [[nodiscard]] engine::Scene take() { return std::move(scene_); }
 
  private:
+  /// Whether the mode shows this pair.
+  [[nodiscard]] bool shown(int i, int j) const {
+    if (style_.mode == slam::PairMode::between_clusters) {
+      const std::vector<int>& label = belief_.clusters.label;
+      return label[static_cast<std::size_t>(i)] != label[static_cast<std::size_t>(j)];
+    }
+    if (style_.mode != slam::PairMode::selected) return true;
+    const auto picked = [this](int k) {
+      return std::ranges::find(style_.selected, id(k)) != style_.selected.end();
+    };
+    return picked(i) || picked(j);
+  }
+
+  [[nodiscard]] engine::PairChoice choice() const {
+    engine::PairChoice choice{.least_area = style_.least_area, .most = style_.most_pairs};
+    if (style_.mode == slam::PairMode::between_clusters) {
+      for (const int label : belief_.clusters.label) {
+        choice.groups.push_back(static_cast<std::uint32_t>(label));
+      }
+    }
+    if (style_.mode == slam::PairMode::selected) {
+      for (const slam::FeatureId wanted : style_.selected) {
+        if (const auto k = snapshot_.indexOf(wanted)) {
+          choice.touching.push_back(static_cast<std::uint32_t>(*k));
+        }
+      }
+      // None of them is there yet: no condition would mean all pairs.
+      if (choice.touching.empty()) choice.touching.push_back(~0U);
+    }
+    return choice;
+  }
+
+  void addPairLines() {
+    for (int i = 0; i < snapshot_.featureCount(); ++i) {
+      for (int j = i + 1; j < snapshot_.featureCount(); ++j) {
+        if (!shown(i, j) || alarms_.pair(id(i), id(j)) != nullptr) continue;
+        addLine(featureOnFloor(i), featureOnFloor(j), colour::kPair);
+      }
+    }
+  }
+
+  [[nodiscard]] Eigen::Vector3d featureOnFloor(int index) const {
+    return onFloor(snapshot_.features[static_cast<std::size_t>(index)]);
+  }
   [[nodiscard]] slam::FeatureId id(int index) const {
     return snapshot_.ids[static_cast<std::size_t>(index)];
   }
@@ -127,6 +208,7 @@ class SceneBuilder {
     scene_.lines.push_back(std::move(ring));
   }
 
+  const Belief& belief_;
   const slam::Snapshot& snapshot_;
   const AlarmMarks& alarms_;
   const SceneStyle& style_;
@@ -149,19 +231,29 @@ engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d, const Eigen::Vec
   return ellipsoid;
 }
 
-std::size_t ellipsoidCount(const engine::Scene& scene) {
-  return static_cast<std::size_t>(
+engine::PlanarPointsPtr pointsOf(const slam::Snapshot& snapshot) {
+  if (snapshot.diagonal_only) return nullptr;
+  return std::make_shared<engine::PlanarPoints>(snapshot.features, snapshot.covariance.packed(),
+                                                slam::Snapshot::row(0));
+}
+
+std::size_t ellipsoidCount(const engine::Scene& scene, const engine::FrameStats::Pairs& drawn) {
+  const auto own =
       std::count_if(scene.ellipsoids.begin(), scene.ellipsoids.end(),
-                    [](const engine::Ellipsoid& e) { return e.colour.a != colour::kHalo.a; }));
+                    [](const engine::Ellipsoid& e) { return e.colour.a != colour::kHalo.a; });
+  return static_cast<std::size_t>(own) + drawn.chosen - drawn.not_finite;
 }
 
 engine::Scene buildScene(const Belief& belief, const SceneStyle& style) {
   SceneBuilder builder(belief, style);
   builder.addRobot(belief.path);
   builder.addFeatures();
-  const slam::PairSelection selection =
-      slam::selectPairs(belief.snapshot, style.mode, belief.clusters,
-                        {.selected = style.selected, .alarms = belief.alarms.pairs()});
+  if (style.mode != slam::PairMode::min_mean_max && style.mode != slam::PairMode::alarms) {
+    builder.addPairsOnDevice();
+    return builder.take();
+  }
+  const slam::PairSelection selection = slam::selectPairs(
+      belief.snapshot, style.mode, belief.clusters, {.alarms = belief.alarms.pairs()});
   for (const slam::FeaturePair& pair : selection.pairs) builder.addPair(pair);
   for (const slam::ClusterPair& pair : selection.cluster_pairs) builder.addClusterPair(pair);
   return builder.take();

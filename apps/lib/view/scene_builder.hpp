@@ -6,7 +6,9 @@
 
 #include "apps/lib/view/alarm_marks.hpp"
 #include "apps/lib/view/path_trace.hpp"
+#include "engine/render/options.hpp"
 #include "engine/scene/glyphs.hpp"
+#include "engine/scene/pair_glyphs.hpp"
 #include "slam/clusters.hpp"
 #include "slam/correlation.hpp"
 #include "slam/correlation_pairs.hpp"
@@ -20,6 +22,8 @@ struct SceneStyle {
   slam::PairMode mode = slam::PairMode::all;
   slam::AxisScale axis{};
   std::vector<slam::FeatureId> selected{};  ///< for PairMode::selected
+  std::uint32_t most_pairs = 0;  ///< of the mode's pairs those with the largest P_d; 0: all
+  double least_area = 0.0;       ///< m², √det P_d; smaller pairs are not drawn
   double map_scale = 1.0;
   bool covariance_rings = false;  ///< k-sigma ellipses of robot and features on the floor
   bool labels = true;             ///< feature ids
@@ -51,9 +55,17 @@ inline constexpr engine::Rgba kHaloRing{1.00F, 0.75F, 0.98F, 0.55F};
 inline constexpr engine::Rgba kHalo{1.00F, 0.62F, 0.97F, 0.38F};
 }  // namespace colour
 
+/// The features and their covariance as the device takes them; null where only the diagonal of P is
+/// known.
+[[nodiscard]] engine::PlanarPointsPtr pointsOf(const slam::Snapshot& snapshot);
+
+/// Where a map has more pairs, their lines are left out: they would hide everything else.
+inline constexpr std::size_t kMostPairLines = 1000;
+
 /// What is to be shown of a moment.
 struct Belief {
   const slam::Snapshot& snapshot;
+  engine::PlanarPointsPtr points;  ///< pointsOf(snapshot), made once a snapshot
   const PathTrace& path;
   const slam::Clustering& clusters;  ///< of this snapshot
   const AlarmMarks& alarms;
@@ -61,7 +73,8 @@ struct Belief {
 
 /// A moment as glyphs, in the frame of the map scaled by `map_scale`: robot and features as cones
 /// standing on their tips, heading arrow, path, and the relative covariances that the mode selects
-/// as ellipsoids in the middle of their pair's line.
+/// as ellipsoids in the middle of their pair's line. Those of the modes all, between-clusters and
+/// selected are made by the device (engine::PairGlyphs).
 ///
 /// What the audit flags is magenta in every mode, in a faint halo of its last good size; mode
 /// alarms shows no other features and pairs.
@@ -72,8 +85,10 @@ struct Belief {
 /// vertical stack would hide all but the top one.
 [[nodiscard]] engine::Scene buildScene(const Belief& belief, const SceneStyle& style);
 
-/// How many relative covariances the scene shows: ellipsoids without halos.
-[[nodiscard]] std::size_t ellipsoidCount(const engine::Scene& scene);
+/// How many relative covariances the scene shows: ellipsoids without halos, and what the device
+/// chose when it drew the scene.
+[[nodiscard]] std::size_t ellipsoidCount(const engine::Scene& scene,
+                                         const engine::FrameStats::Pairs& drawn = {});
 
 /// The ellipsoid for one relative covariance (m²), centred at `centre` (scene, m).
 [[nodiscard]] engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d,

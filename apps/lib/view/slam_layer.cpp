@@ -11,6 +11,17 @@ namespace slamscope::apps {
 
 using slam::seconds;
 
+namespace {
+
+/// 499500 as "499,500".
+std::string thousands(std::size_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
+  return text;
+}
+
+}  // namespace
+
 std::optional<RunTruth> truthFor(const MonitorOptions& options) {
   if (options.camera != "lab" || options.slam == "-" || options.slam.starts_with("tcp://")) {
     return std::nullopt;
@@ -76,12 +87,17 @@ double SlamLayer::progress(const RunTruth& truth) const {
 }
 
 SceneStyle SlamLayer::style(const Place& place, const engine::Pinhole& camera) const {
-  // Cones and arrow have one size on the floor, so chosen that they suit the picture.
+  // Cones and arrow have one size on the floor, so chosen that they suit the picture: that many
+  // more cones cover no more of it.
   constexpr double kConeShare = 0.09;  // of the picture's height, seen from the side
-  const double cone = kConeShare * camera.height * place.metres_per_px;
+  constexpr double kManyFeatures = 60.0;
+  const double crowd = std::max(slam_.newest()->featureCount() / kManyFeatures, 1.0);
+  const double cone = kConeShare * camera.height * place.metres_per_px / std::sqrt(crowd);
   return {.mode = choices_.mode,
           .axis = choices_.axis,
           .selected = options_.selected,
+          .most_pairs = options_.most_pairs,
+          .least_area = options_.least_area,
           .map_scale = place.map_scale,
           .covariance_rings = choices_.covariance_rings,
           .labels = choices_.labels,
@@ -91,15 +107,31 @@ SceneStyle SlamLayer::style(const Place& place, const engine::Pinhole& camera) c
           .viewer_up = place.viewer_up};
 }
 
+const engine::PlanarPointsPtr& SlamLayer::points() {
+  if (sent_ != slam_.newest()) {
+    sent_ = slam_.newest();
+    points_ = pointsOf(*sent_);
+  }
+  return points_;
+}
+
+std::string SlamLayer::pairsText(const engine::Scene& scene) const {
+  const std::size_t own = ellipsoidCount(scene);
+  if (!scene.pairs) return thousands(own) + " ellipsoids";
+  const std::size_t all = scene.pairs->points->pairCount();
+  if (drawn_.all != all) return thousands(all) + " pairs";  // nothing was drawn of these yet
+  return thousands(drawn_.drawn + own) + " of " + thousands(all) + " pairs drawn";
+}
+
 std::string SlamLayer::runLine(const engine::Scene& scene) const {
   char text[200];
   const slam::Snapshot& snapshot = *slam_.newest();
   const double age =
       feed_->live() ? seconds(slam_.sinceArrival()) : seconds(run_time_ - snapshot.time);
   std::snprintf(text, sizeof text,
-                "t %.2f s · record %llu, %.2f s old · %d features · %zu ellipsoids · mode %s",
+                "t %.2f s · record %llu, %.2f s old · %d features · %s · mode %s",
                 seconds(snapshot.time), static_cast<unsigned long long>(snapshot.sequence),
-                std::max(age, 0.0), snapshot.featureCount(), ellipsoidCount(scene),
+                std::max(age, 0.0), snapshot.featureCount(), pairsText(scene).c_str(),
                 std::string(slam::pairModeName(choices_.mode)).c_str());
   return text;
 }
@@ -112,6 +144,7 @@ std::vector<std::string> SlamLayer::statusLines(const engine::Scene& scene,
     if (slam_.newest()->diagonal_only) {
       all.emplace_back("only the diagonal of P was logged: relative covariances are unknown");
     }
+    if (scene.pairs && !drawn_.problem.empty()) all.emplace_back(drawn_.problem);
   } else {
     all.emplace_back("no record of the filter yet");
   }
@@ -133,6 +166,9 @@ Legend SlamLayer::legend(const Place& place) const {
           .clusters = clustered() ? clusters.count() : 0,
           .cluster_cut = clusters.cut,
           .automatic_cut = clusters.automatic,
+          .most_pairs = options_.most_pairs,
+          .least_area = options_.least_area,
+          .lines_left_out = points_ && points_->pairCount() > kMostPairLines,
           .flagged = choices_.mode == slam::PairMode::alarms || !alarms_.empty(),
           .px_per_m = 1.0 / place.metres_per_px};
 }
@@ -143,6 +179,7 @@ engine::Scene SlamLayer::compose(const std::optional<Place>& place, const engine
   const bool shown = place.has_value() && slam_.newest() != nullptr;
   if (shown) {
     scene = buildScene({.snapshot = *slam_.newest(),
+                        .points = points(),
                         .path = slam_.path(),
                         .clusters = slam_.clusters(),
                         .alarms = alarms_},

@@ -54,6 +54,9 @@ class SlamLayer {
                                       const engine::Pinhole& camera,
                                       const std::vector<std::string>& lines);
 
+  /// What became of the pairs when the scene composed last was drawn: for the next status line.
+  void drawn(const engine::FrameStats::Pairs& pairs) { drawn_ = pairs; }
+
   [[nodiscard]] const slam::SnapshotPtr& newest() const { return slam_.newest(); }
   [[nodiscard]] const std::optional<AuditWatch>& audit() const { return audit_; }
   [[nodiscard]] const SlamFeed& feed() const { return *feed_; }
@@ -62,6 +65,8 @@ class SlamLayer {
   [[nodiscard]] double progress(const RunTruth& truth) const;
 
  private:
+  [[nodiscard]] const engine::PlanarPointsPtr& points();
+  [[nodiscard]] std::string pairsText(const engine::Scene& scene) const;
   [[nodiscard]] SceneStyle style(const Place& place, const engine::Pinhole& camera) const;
   [[nodiscard]] std::string runLine(const engine::Scene& scene) const;
   [[nodiscard]] std::vector<std::string> statusLines(const engine::Scene& scene,
@@ -80,6 +85,9 @@ class SlamLayer {
   AlarmMarks alarms_;  ///< of the newest judgement
   RunClock clock_;
   std::chrono::nanoseconds run_time_{};
+  slam::SnapshotPtr sent_;  ///< whose points `points_` are
+  engine::PlanarPointsPtr points_;
+  engine::FrameStats::Pairs drawn_;
   engine::FontAtlas fonts_;
 };
 

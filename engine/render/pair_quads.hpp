@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "engine/gpu/compute_pipeline.hpp"
+#include "engine/render/frame_context.hpp"
+#include "engine/render/pair_data.hpp"
+
+namespace slamscope::engine {
+
+/// Pairs as one ray-cast quad each: the device lists the chosen ones that are in the picture, in
+/// order, and draws as many as it found. First the pixels that an ellipsoid covers whole, which
+/// hide by depth, then the edges over them: so the order of drawing shows at no pixel but those in
+/// which several edges meet.
+class PairQuads {
+ public:
+  PairQuads(const PassSetup& setup, const PairData& data);
+
+  /// Room for the frame; the device must not be drawing.
+  void update(PairData& data);
+  /// Makes the list; outside of rendering.
+  void recordList(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
+                  const PairData& data) const;
+  void record(const FrameContext& context, const PairData& data) const;
+
+ private:
+  gpu::Buffer list_, runs_;
+  gpu::ComputePipeline count_, place_, write_;
+  gpu::Pipeline depth_;
+  std::array<gpu::Pipeline, 2> inside_, edges_;  // flat, lit
+};
+
+}  // namespace slamscope::engine

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/pair_splats.hpp"
+
+#include "engine/gpu/barrier.hpp"
+#include "engine/render/shader_code.hpp"
+
+namespace slamscope::engine {
+
+namespace {
+
+constexpr std::uint32_t kSlices = 8;
+constexpr std::uint32_t kLargeGroups = 16;  // that go over the list of large ones
+constexpr std::size_t kBytesOfAPixel = 2 * sizeof(std::uint64_t);
+constexpr std::size_t kBytesOfAFace = 12 * sizeof(float);
+constexpr std::uint32_t kTile = 32;  // px, as in common/pair_tiles.glsl
+
+using Usage = vk::BufferUsageFlagBits;
+
+std::vector<vk::DescriptorSetLayout> splatSets(const PassSetup& setup, const PairData& data) {
+  return {setup.frame_layout, data.set().layout()};
+}
+
+gpu::PipelineInfo resolveInfo(const PassSetup& setup, const PairData& data, bool lit) {
+  return {.vertex = shaderCode("pairs_tiles_vert"),
+          .fragment = shaderCode("pairs_resolve_frag"),
+          .sets = splatSets(setup, data),
+          .view_mask = setup.view_mask,
+          .depth_test = true,
+          .depth_write = true,
+          .constants = {lit ? VK_TRUE : VK_FALSE}};
+}
+
+}  // namespace
+
+PairSplats::PairSplats(const PassSetup& setup, const PairData& data)
+    : visibility_(setup.core, 0,
+                  Usage::eStorageBuffer | Usage::eUniformTexelBuffer | Usage::eTransferDst,
+                  gpu::MemoryUse::kDevice),
+      large_(setup.core, 0, Usage::eStorageBuffer, gpu::MemoryUse::kDevice),
+      faces_(setup.core, 0, Usage::eStorageBuffer | Usage::eUniformTexelBuffer,
+             gpu::MemoryUse::kDevice),
+      tiles_(setup.core, 0,
+             Usage::eStorageBuffer | Usage::eUniformTexelBuffer | Usage::eTransferDst,
+             gpu::MemoryUse::kDevice),
+      small_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_FALSE}),
+      large_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_TRUE}),
+      resolve_{gpu::Pipeline(setup.core, resolveInfo(setup, data, false)),
+               gpu::Pipeline(setup.core, resolveInfo(setup, data, true))} {}
+
+void PairSplats::update(PairData& data, vk::Extent2D extent) {
+  const std::size_t views = data.data().views;
+  visibility_bytes_ = std::size_t{extent.width} * extent.height * views * kBytesOfAPixel;
+  tile_count_ = ((extent.width + kTile - 1) / kTile) * ((extent.height + kTile - 1) / kTile);
+  visibility_.reserve(visibility_bytes_);
+  large_.reserve(data.pairCount() * views * sizeof(std::uint32_t));
+  faces_.reserve(data.pairCount() * views * kBytesOfAFace);
+  tiles_.reserve(tile_count_ * views * sizeof(std::uint32_t));
+  for (const auto binding : {PairData::kVisibility, PairData::kDepths, PairData::kNearest}) {
+    data.bind(binding, visibility_);
+  }
+  data.bind(PairData::kList, large_);
+  for (const auto binding : {PairData::kFaces, PairData::kFaceTexels}) data.bind(binding, faces_);
+  for (const auto binding : {PairData::kTiles, PairData::kTileTexels}) data.bind(binding, tiles_);
+}
+
+void PairSplats::recordSplats(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
+                              const PairData& data) const {
+  commands.fillBuffer(visibility_.handle(), 0, visibility_bytes_, ~0U);
+  commands.fillBuffer(tiles_.handle(), 0, tile_count_ * data.data().views * sizeof(std::uint32_t),
+                      0);
+  barrier(commands, gpu::copyTarget(), gpu::computed());
+  const std::array sets = {frame_set, data.set().handle()};
+  small_pass_.bind(commands, sets);
+  commands.dispatch(data.groupCount(), 1, 1);
+  barrier(commands, gpu::computed(), gpu::computed());
+  large_pass_.bind(commands, sets);
+  commands.dispatch(kLargeGroups, kSlices, 1);
+  barrier(commands, gpu::computed(), gpu::readByAll());
+}
+
+void PairSplats::record(const FrameContext& context, const PairData& data) const {
+  context.draw("pairs", resolve_[context.lit ? 1 : 0], data.set().handle(), 4,
+               static_cast<int>(tile_count_));
+}
+
+}  // namespace slamscope::engine

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "engine/gpu/compute_pipeline.hpp"
+#include "engine/render/frame_context.hpp"
+#include "engine/render/pair_data.hpp"
+
+namespace slamscope::engine {
+
+/// Pairs splatted by a compute shader into a visibility buffer: two 64-bit entries a pixel of each
+/// view, depth above the pair's number, for the nearest ellipsoid that covers the pixel whole and
+/// the nearest that has its edge there. All views in one dispatch. Then the picture is made of it,
+/// each pixel shaded once, with depth, so that it stands rightly among what else is drawn; only
+/// where something was splatted, tile by tile. Needs gpu::Core::wideAtomics().
+class PairSplats {
+ public:
+  PairSplats(const PassSetup& setup, const PairData& data);
+
+  /// Room for the frame; the device must not be drawing.
+  void update(PairData& data, vk::Extent2D extent);
+  /// Fills the visibility buffer; outside of rendering.
+  void recordSplats(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
+                    const PairData& data) const;
+  void record(const FrameContext& context, const PairData& data) const;
+
+ private:
+  gpu::Buffer visibility_, large_, faces_, tiles_;
+  std::size_t visibility_bytes_ = 0;  // that this frame uses
+  std::uint32_t tile_count_ = 0;      // of a view
+  gpu::ComputePipeline small_pass_, large_pass_;
+  std::array<gpu::Pipeline, 2> resolve_;  // flat, lit
+};
+
+}  // namespace slamscope::engine

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/pairs.hpp"
+
+namespace slamscope::engine {
+
+PairPass::PairPass(const PassSetup& setup) : setup_(setup), data_(setup.core) {}
+
+bool PairPass::nothing() const {
+  return !data_.problem().empty() || data_.pairCount() == 0;
+}
+
+void PairPass::update(const PairGlyphs& glyphs, const ViewSet& views) {
+  data_.update(glyphs, views);
+  if (nothing()) return;
+  const PairWay way = views.options().pair_way;
+  const bool many = data_.pairCount() >= kFewPairs;
+  splatted_ =
+      setup_.core.wideAtomics() && (way == PairWay::splats || (way == PairWay::chosen && many));
+  ranked_ = data_.choice().most > 0 && data_.changed();
+  if (ranked_ && !ranking_) ranking_.emplace(setup_, data_);
+  if (splatted_) {
+    if (!splats_) splats_.emplace(setup_, data_);
+    const auto& size = views.data().views[0].size;
+    splats_->update(data_,
+                    {static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1])});
+  } else {
+    if (!quads_) quads_.emplace(setup_, data_);
+    quads_->update(data_);
+  }
+}
+
+void PairPass::recordChoice(const vk::raii::CommandBuffer& commands,
+                            vk::DescriptorSet frame_set) const {
+  if (nothing()) return;
+  data_.recordReset(commands);
+  if (ranked_) ranking_->record(commands, frame_set, data_);
+  if (splatted_) {
+    splats_->recordSplats(commands, frame_set, data_);
+  } else {
+    quads_->recordList(commands, frame_set, data_);
+  }
+}
+
+void PairPass::record(const FrameContext& context) const {
+  if (nothing()) return;
+  if (splatted_) {
+    splats_->record(context, data_);
+  } else {
+    quads_->record(context, data_);
+  }
+}
+
+void PairPass::recordReadback(const vk::raii::CommandBuffer& commands) const {
+  if (!nothing()) data_.recordReadback(commands);
+}
+
+FrameStats::Pairs PairPass::stats() const {
+  if (!data_.problem().empty()) return {.problem = data_.problem()};
+  if (nothing()) return {};
+  const interop::PairsCounts& counts = data_.counts();
+  return {.all = data_.pairCount(),
+          .chosen = counts.chosen,
+          .drawn = counts.drawn,
+          .not_finite = counts.not_finite,
+          .uploaded_bytes = data_.uploadedBytes(),
+          .splatted = splatted_,
+          .problem = {}};
+}
+
+}  // namespace slamscope::engine

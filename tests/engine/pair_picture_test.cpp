@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <random>
+
+#include "engine/scene/clip.hpp"
+#include "engine/scene/ellipsoid_outline.hpp"
+#include "engine/scene/pair_glyphs.hpp"
+#include "tests/engine/picture.hpp"
+
+// Pairs of points as ellipsoids, in both ways of drawing.
+namespace slamscope::engine {
+namespace {
+
+constexpr Pinhole kFloorCamera = {
+    .width = 320, .height = 240, .fx = 300.0, .fy = 310.0, .cx = 158.3, .cy = 121.6, .skew = 5.0};
+
+View overFloor() {
+  return lookingAt(kFloorCamera, {0.1, -1.6, 1.4}, {0.05, 0.0, 0.0}, 0.1);
+}
+
+std::vector<double> packed(const Eigen::MatrixXd& P) {
+  std::vector<double> lower;
+  for (int row = 0; row < P.rows(); ++row) {
+    for (int column = 0; column <= row; ++column) lower.push_back(P(row, column));
+  }
+  return lower;
+}
+
+PairGlyphs glyphsOf(const std::vector<Eigen::Vector2d>& means, const Eigen::MatrixXd& P) {
+  return {.points = std::make_shared<PlanarPoints>(means, packed(P)),
+          .axis = {},
+          .choice = {},
+          .colour = kWhite};
+}
+
+Scene sceneOf(const PairGlyphs& glyphs) {
+  Scene scene;
+  scene.pairs = std::make_shared<PairGlyphs>(glyphs);
+  return scene;
+}
+
+/// Two points whose difference has this covariance, the middle between them at `middle`.
+PairGlyphs pairWith(const Eigen::Matrix2d& P_d, const Eigen::Vector2d& middle) {
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(4, 4);
+  P.topLeftCorner<2, 2>() = 0.25 * P_d;
+  P.bottomRightCorner<2, 2>() = 0.25 * P_d;
+  P.bottomLeftCorner<2, 2>() = -0.25 * P_d;
+  const Eigen::Vector2d half(0.31, 0.12);
+  return glyphsOf({middle - half, middle + half}, P);
+}
+
+Eigen::Matrix2d covarianceOf(double major, double minor, double angle) {
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  return R * Eigen::Vector2d(major * major, minor * minor).asDiagonal() * R.transpose();
+}
+
+/// What it must look like.
+Ellipsoid ellipsoidOf(double major, double minor, double angle, const Eigen::Vector2d& middle) {
+  Ellipsoid ellipsoid{.centre = {middle.x(), middle.y(), 0.0}, .axes = {}, .colour = kWhite};
+  ellipsoid.axes = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+                   Eigen::Vector3d(major, minor, minor).asDiagonal();
+  return ellipsoid;
+}
+
+/// n points on the floor with a covariance as after some SLAM: a common part and parts of their
+/// own.
+PairGlyphs someMap(int n, double sigma, unsigned seed = 3) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-0.8, 0.8);
+  std::normal_distribution<double> normal;
+  std::vector<Eigen::Vector2d> means;
+  for (int i = 0; i < n; ++i) means.emplace_back(place(random), place(random));
+  Eigen::MatrixXd root(2 * n, 6);
+  for (double& value : root.reshaped()) value = sigma * normal(random);
+  Eigen::MatrixXd P = root * root.transpose() / 6.0;
+  P.diagonal().array() += 0.2 * sigma * sigma;
+  return glyphsOf(means, P);
+}
+
+/// Draws again and again with what was made once.
+class PairTest : public PictureTest {
+ protected:
+  std::vector<Image> draw(std::span<const View> views, const Scene& scene,
+                          const RenderOptions& options) {
+    auto& offscreen = offscreen_[views.size() - 1];
+    const Pinhole& camera = views.front().camera;
+    const int count = static_cast<int>(views.size());
+    if (!offscreen) {
+      offscreen = std::make_unique<Offscreen>(gpu_, camera.width, camera.height, count);
+    }
+    auto pictures = offscreen->draw(views, scene, options);
+    stats_ = offscreen->lastStats();
+    return pictures;
+  }
+  Image draw(const View& view, const Scene& scene, const RenderOptions& options) {
+    return draw({&view, 1}, scene, options).front();
+  }
+  void useGpu(const GpuOptions& options) {
+    offscreen_ = {};
+    gpu_ = std::make_shared<Gpu>(options);
+  }
+
+ private:
+  std::array<std::unique_ptr<Offscreen>, 2> offscreen_;
+};
+
+/// One way of drawing, with everything else equal.
+class PairPicture : public PairTest, public ::testing::WithParamInterface<PairWay> {
+ protected:
+  [[nodiscard]] static RenderOptions options(bool lit = false) {
+    return {.lit = lit, .pair_way = GetParam()};
+  }
+  Image drawn(const View& view, const Scene& scene) {
+    Image image = draw(view, scene, options());
+    EXPECT_EQ(stats_.pairs.splatted, GetParam() == PairWay::splats);
+    return image;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, PairPicture, ::testing::Values(PairWay::quads, PairWay::splats),
+                         [](const auto& info) {
+                           return info.param == PairWay::quads ? "Quads" : "Splats";
+                         });
+
+struct PairMisfit {
+  double centroid_px = 0.0, shape = 0.0, area = 0.0;
+};
+
+PairMisfit pairMisfit(const Image& image, const Ellipsoid& ellipsoid, const View& view) {
+  const Moments drawn = momentsOf(image);
+  const auto outline = ellipsoidOutline(ellipsoid, view);
+  if (!outline) return {1e9, 1e9, 1e9};
+  return {(drawn.centre - outline->centre_px).norm(),
+          (drawn.shape - outline->shape_px2).norm() / outline->shape_px2.norm(),
+          std::abs(drawn.area - outline->area_px2) / outline->area_px2};
+}
+
+TEST_P(PairPicture, SecondMomentsGiveBackTheCovarianceOfTheDifference) {
+  const View view = overFloor();
+  struct Case {
+    double major, minor, angle;
+    Eigen::Vector2d middle;
+  };
+  for (const Case& c : {Case{0.2, 0.08, 0.4, {0.0, 0.0}}, Case{0.05, 0.05, 0.0, {0.2, 0.3}},
+                        Case{0.3, 0.02, 2.2, {-0.1, 0.1}}, Case{0.03, 0.025, -1.1, {-0.5, 0.4}},
+                        Case{0.4, 0.3, 1.0, {0.1, -0.1}}}) {
+    const Image image =
+        drawn(view, sceneOf(pairWith(covarianceOf(c.major, c.minor, c.angle), c.middle)));
+    const PairMisfit found =
+        pairMisfit(image, ellipsoidOf(c.major, c.minor, c.angle, c.middle), view);
+    EXPECT_LE(found.centroid_px, 0.02) << c.major;
+    EXPECT_LE(found.shape, 0.005) << c.major;
+    EXPECT_LE(found.area, 0.005) << c.major;
+    // Twins: a hundredth more of the covariance, two degrees more.
+    const PairMisfit larger =
+        pairMisfit(image, ellipsoidOf(1.005 * c.major, 1.005 * c.minor, c.angle, c.middle), view);
+    EXPECT_GT(larger.area, 0.005) << c.major;
+    if (c.major == c.minor) continue;
+    const PairMisfit turned =
+        pairMisfit(image, ellipsoidOf(c.major, c.minor, c.angle + 0.035, c.middle), view);
+    EXPECT_GT(turned.shape, 0.005) << c.major;
+  }
+}
+
+TEST_P(PairPicture, FromAThirdOfAPixelToTheWholePictureTheAreaIsRight) {
+  const View view = overFloor();
+  const double px = 2.1 / 300.0;  // m, at the middle of the picture
+  for (const double size : {0.3, 1.0, 4.0, 40.0, 110.0}) {
+    const double radius = 0.5 * size * px;
+    const Image image =
+        drawn(view, sceneOf(pairWith(covarianceOf(radius, radius, 0.0), {0.05, 0.0})));
+    const auto outline = ellipsoidOutline(ellipsoidOf(radius, radius, 0.0, {0.05, 0.0}), view);
+    ASSERT_TRUE(outline);
+    // An edge pixel is right to 0.03 of a pixel.
+    const double allowed = std::max(0.005, 0.025 / outline->area_px2);
+    EXPECT_NEAR(momentsOf(image).area / outline->area_px2, 1.0, allowed) << size;
+    EXPECT_GT(std::abs(momentsOf(image).area / (1.5 * outline->area_px2) - 1.0), allowed) << size;
+  }
+}
+
+TEST_P(PairPicture, EveryPixelAwayFromEdgesIsThatOfTheNearestEllipsoid) {
+  const View view = overFloor();
+  PairGlyphs glyphs = someMap(8, 0.08);
+  glyphs.colour = {1.0F, 0.0F, 0.0F, 1.0F};
+  Scene scene = sceneOf(glyphs);
+  const Image pairs = drawn(view, scene);
+  EXPECT_EQ(stats_.pairs.chosen, 28U);
+  // The same as ellipsoids of the scene, made in double precision.
+  Scene expected;
+  const auto& means = glyphs.points->means();
+  for (std::size_t j = 1; j < means.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const auto& blocks = glyphs.points->blocks();
+      const auto block = [&](std::size_t a, std::size_t b) {
+        const Eigen::Vector4d v = blocks[a * (a + 1) / 2 + b].cast<double>();
+        return (Eigen::Matrix2d() << v(0), v(1), v(2), v(3)).finished();
+      };
+      const Eigen::Matrix2d P_d = block(i, i) + block(j, j) - block(j, i) - block(j, i).transpose();
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(P_d);
+      const Eigen::Vector2d middle =
+          glyphs.points->origin() + 0.5 * (means[i] + means[j]).cast<double>();
+      const Eigen::Vector2d semi = eigen.eigenvalues().cwiseSqrt();
+      Ellipsoid ellipsoid{.centre = {middle.x(), middle.y(), 0.0},
+                          .axes = Eigen::Matrix3d::Zero(),
+                          .colour = glyphs.colour};
+      ellipsoid.axes.block<2, 2>(0, 0) = eigen.eigenvectors() * semi.asDiagonal();
+      ellipsoid.axes(2, 2) = semi(0);
+      expected.ellipsoids.push_back(ellipsoid);
+    }
+  }
+  const Image reference = draw(view, expected, options());
+  EXPECT_LE(difference(pairs, reference).pixels, 320 * 240 / 100);
+  const Moments found = momentsOf(pairs);
+  EXPECT_NEAR(found.area, momentsOf(reference).area, 0.002 * found.area);
+  // With light their surfaces show which of them is in front.
+  const Image lit = draw(view, scene, options(true));
+  const Image lit_reference = draw(view, expected, options(true));
+  int wrong = 0;
+  for (int v = 0; v < lit.height; ++v) {
+    for (int u = 0; u < lit.width; ++u) {
+      wrong += std::abs(channel(lit, u, v, 0) - channel(lit_reference, u, v, 0)) > 5 ? 1 : 0;
+    }
+  }
+  EXPECT_LE(wrong, 320 * 240 / 100);
+  expected.ellipsoids[5].centre.z() += 0.02;  // twin
+  const Image moved = draw(view, expected, options(true));
+  int found_wrong = 0;
+  for (int v = 0; v < lit.height; ++v) {
+    for (int u = 0; u < lit.width; ++u) {
+      found_wrong += std::abs(channel(lit, u, v, 0) - channel(moved, u, v, 0)) > 5 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(found_wrong, 2 * wrong + 50);
+}
+
+TEST_P(PairPicture, PointsAreSentOnceAndNotAgainWhenOnlyTheViewerMoves) {
+  const View view = overFloor();
+  const Scene scene = sceneOf(someMap(40, 0.02));
+  Offscreen offscreen(gpu_, view.camera.width, view.camera.height);
+  (void)offscreen.draw({&view, 1}, scene, options());
+  EXPECT_EQ(offscreen.lastStats().pairs.uploaded_bytes, 40U * 8 + 820U * 16);
+  const View moved = lookingAt(kFloorCamera, {0.4, -1.2, 1.6}, {0, 0, 0});
+  const Image picture = offscreen.draw({&moved, 1}, scene, options()).front();
+  EXPECT_EQ(offscreen.lastStats().pairs.uploaded_bytes, 0U);
+  EXPECT_TRUE(sameBytes(picture, draw(moved, scene, options())));
+  (void)offscreen.draw({&view, 1}, sceneOf(someMap(40, 0.03)), options());
+  EXPECT_GT(offscreen.lastStats().pairs.uploaded_bytes, 0U);
+}
+
+TEST_P(PairPicture, BothEyesAreDrawnAndEachAsIfAlone) {
+  const View left = overFloor();
+  View right = left;
+  right.T_eye_scene.pretranslate(Eigen::Vector3d(-0.064, 0.0, 0.0));
+  const Scene scene = sceneOf(someMap(20, 0.04));
+  const auto both = draw(std::array{left, right}, scene, options(true));
+  EXPECT_TRUE(sameBytes(both[0], draw(left, scene, options(true))));
+  const Difference off = difference(both[1], draw(right, scene, options(true)));
+  EXPECT_LE(off.most, 2);
+  EXPECT_FALSE(sameBytes(both[0], both[1]));
+}
+
+TEST_P(PairPicture, ConditionsChooseThePairsAndAreCounted) {
+  const View view = overFloor();
+  PairGlyphs glyphs = someMap(10, 0.03);
+  const auto chosen = [&](const PairChoice& choice) {
+    glyphs.choice = choice;
+    (void)draw(view, sceneOf(glyphs), options());
+    return stats_.pairs.chosen;
+  };
+  EXPECT_EQ(chosen({}), 45U);
+  EXPECT_EQ(stats_.pairs.all, 45U);
+  EXPECT_EQ(chosen({.groups = {0, 0, 0, 0, 1, 1, 1, 2, 2, 2}}), 4U * 6 + 3U * 3);
+  EXPECT_EQ(chosen({.touching = {3}}), 9U);
+  EXPECT_EQ(chosen({.touching = {3, 7}}), 17U);
+  EXPECT_EQ(chosen({.left_out = {{2, 5}, {5, 1}, {9, 8}}}), 42U);
+  EXPECT_EQ(chosen({.most = 7}), 7U);
+  EXPECT_EQ(chosen({.most = 44}), 44U);
+  EXPECT_EQ(chosen({.most = 100}), 45U);
+  EXPECT_EQ(chosen({.touching = {3}, .most = 4}), 4U);
+  EXPECT_EQ(chosen({.least_area = 1e6}), 0U);
+  EXPECT_EQ(stats_.pairs.drawn, 0U);
+}
+
+TEST_P(PairPicture, TheMostAreThoseOfTheGreatestArea) {
+  const View view = overFloor();
+  PairGlyphs glyphs = someMap(12, 0.03);
+  const auto chosenFrom = [&](double least_area) {
+    glyphs.choice = {.least_area = least_area};
+    (void)draw(view, sceneOf(glyphs), options());
+    return stats_.pairs.chosen;
+  };
+  // The area that exactly ten pass, by halving.
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 40 && chosenFrom(low) != 10; ++i) {
+    const double middle = 0.5 * (low + high);
+    (chosenFrom(middle) >= 10 ? low : high) = middle;
+  }
+  ASSERT_EQ(chosenFrom(low), 10U);
+  const Image by_area = draw(view, sceneOf(glyphs), options());
+  glyphs.choice = {.most = 10};
+  EXPECT_TRUE(sameBytes(by_area, draw(view, sceneOf(glyphs), options())));
+  glyphs.choice = {.most = 11};
+  EXPECT_FALSE(sameBytes(by_area, draw(view, sceneOf(glyphs), options())));
+}
+
+TEST_P(PairPicture, OnlyThoseInThePictureAreCountedAsDrawn) {
+  const View view = overFloor();
+  PairGlyphs glyphs = pairWith(covarianceOf(0.1, 0.1, 0.0), {0.0, 0.0});
+  (void)drawn(view, sceneOf(glyphs));
+  EXPECT_EQ(stats_.pairs.drawn, 1U);
+  glyphs = pairWith(covarianceOf(0.1, 0.1, 0.0), {40.0, 0.0});
+  (void)drawn(view, sceneOf(glyphs));
+  EXPECT_EQ(stats_.pairs.chosen, 1U);
+  EXPECT_EQ(stats_.pairs.drawn, 0U);
+}
+
+TEST_P(PairPicture, DegeneratePairsAreDefined) {
+  const View view = overFloor();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto areaOf = [&](const PairGlyphs& glyphs) {
+    return momentsOf(drawn(view, sceneOf(glyphs))).area;
+  };
+  EXPECT_LE(areaOf(pairWith(Eigen::Matrix2d::Zero(), {0, 0})), 0.01);
+  EXPECT_EQ(areaOf(pairWith(Eigen::Matrix2d::Constant(nan), {0, 0})), 0.0);
+  EXPECT_EQ(stats_.pairs.not_finite, 1U);
+  EXPECT_EQ(areaOf(pairWith(covarianceOf(0.1, 0.1, 0.0), {nan, 0})), 0.0);
+  EXPECT_EQ(stats_.pairs.not_finite, 1U);
+  // Around the eye, and wholly behind it.
+  EXPECT_EQ(areaOf(pairWith(covarianceOf(1e3, 1e3, 0.0), {0, 0})), 0.0);
+  EXPECT_EQ(areaOf(pairWith(covarianceOf(0.2, 0.1, 0.0), {0.1, -8.0})), 0.0);
+  EXPECT_LE(areaOf(pairWith(covarianceOf(1e-12, 1e-13, 0.3), {0, 0})), 0.01);
+  // A needle: its length is right and its width that of the thinnest that is drawn.
+  const Image needle = drawn(view, sceneOf(pairWith(covarianceOf(0.4, 4e-6, 0.3), {0, 0})));
+  const auto outline = ellipsoidOutline(ellipsoidOf(0.4, 4e-5, 0.3, {0, 0}), view);
+  const Moments moments = momentsOf(needle);
+  if (moments.area > 0.0) {
+    EXPECT_NEAR(moments.area, outline->area_px2, 0.6 * outline->area_px2 + 0.5);
+  }
+}
+
+TEST_P(PairPicture, TranslucentOnesFadeAsOneLayer) {
+  const View view = overFloor();
+  PairGlyphs glyphs = someMap(6, 0.2);
+  const Image opaque = draw(view, sceneOf(glyphs), options());
+  glyphs.colour.a = 0.5F;
+  const Image faded = draw(view, sceneOf(glyphs), options());
+  int inside = 0;
+  for (int v = 0; v < opaque.height; ++v) {
+    for (int u = 0; u < opaque.width; ++u) {
+      if (coverage(faded, u, v) > 0.51) ++inside;
+    }
+  }
+  // Twice as bright only where several edges meet.
+  EXPECT_LE(inside, opaque.width * opaque.height / 50);
+  EXPECT_NEAR(momentsOf(faded).area, 0.5 * momentsOf(opaque).area, 0.02 * momentsOf(opaque).area);
+}
+
+TEST_P(PairPicture, StandAmongWhatElseIsInTheSceneByDepth) {
+  const View view = overFloor();
+  PairGlyphs glyphs = pairWith(covarianceOf(0.2, 0.15, 0.0), {0.0, 0.0});
+  Scene scene = sceneOf(glyphs);
+  const Eigen::Vector3d eye = view.T_eye_scene.inverse().translation();
+  const auto middle = project(view.camera, view.T_eye_scene * Eigen::Vector3d::Zero());
+  const auto at = [&](const Image& image) {
+    return pixel(image, static_cast<int>(middle.x()), static_cast<int>(middle.y()));
+  };
+  scene.ellipsoids = {{0.3 * eye, 0.02 * Eigen::Matrix3d::Identity(), {1, 0, 0, 1}}};
+  EXPECT_EQ(at(drawn(view, scene)).g, 0.0F) << "the nearer ellipsoid hides the pair";
+  scene.ellipsoids[0].centre = -0.3 * eye;
+  EXPECT_EQ(at(drawn(view, scene)).g, 1.0F) << "the farther one is hidden";
+}
+
+class PairWays : public PairTest {};
+
+TEST_F(PairWays, GiveTheSamePictureButForPixelsWhereEdgesMeet) {
+  const View view = overFloor();
+  for (const bool lit : {false, true}) {
+    const Scene scene = sceneOf(someMap(14, 0.03));
+    const Image quads = draw(view, scene, {.lit = lit, .pair_way = PairWay::quads});
+    const Image splats = draw(view, scene, {.lit = lit, .pair_way = PairWay::splats});
+    int off = 0;
+    for (int v = 0; v < quads.height; ++v) {
+      for (int u = 0; u < quads.width; ++u) {
+        off += std::abs(channel(quads, u, v, 0) - channel(splats, u, v, 0)) > 5 ? 1 : 0;
+      }
+    }
+    EXPECT_LE(off, quads.width * quads.height / 50);
+    const double area = momentsOf(quads).area;
+    EXPECT_NEAR(momentsOf(splats).area, area, 0.01 * area);
+    EXPECT_GT(difference(quads, draw(view, sceneOf(someMap(14, 0.031)), {.lit = lit})).pixels, off);
+  }
+}
+
+TEST_F(PairWays, AreChosenByTheNumberOfPairs) {
+  const View view = overFloor();
+  (void)draw(view, sceneOf(someMap(15, 0.03)), {});
+  EXPECT_FALSE(stats_.pairs.splatted);
+  (void)draw(view, sceneOf(someMap(60, 0.03)), {});
+  EXPECT_TRUE(stats_.pairs.splatted);
+}
+
+TEST_F(PairWays, WithoutWideAtomicsQuadsDoItAll) {
+  useGpu(GpuOptions{.validation = true, .wide_atomics = false});
+  const Scene scene = sceneOf(someMap(60, 0.01));
+  (void)draw(overFloor(), scene, {.pair_way = PairWay::splats});
+  EXPECT_FALSE(stats_.pairs.splatted);
+  EXPECT_EQ(stats_.pairs.chosen, 1770U);
+}
+
+TEST_F(PairWays, PointsThatNoBufferTakesAreSaidSo) {
+  const Scene scene = sceneOf(someMap(60, 0.01));
+  useGpu(GpuOptions{.validation = true, .most_texels = 1830U});
+  (void)draw(overFloor(), scene, {});
+  EXPECT_EQ(stats_.pairs.problem, "");
+  EXPECT_EQ(stats_.pairs.chosen, 1770U);
+  useGpu(GpuOptions{.validation = true, .most_texels = 1829U});
+  (void)draw(overFloor(), scene, {});
+  EXPECT_NE(stats_.pairs.problem.find("60 points"), std::string::npos);
+  EXPECT_EQ(stats_.pairs.chosen, 0U);
+}
+
+TEST(PlanarPoints, NeedTheWholeTriangle) {
+  const std::vector<Eigen::Vector2d> means(3, Eigen::Vector2d::Zero());
+  EXPECT_NO_THROW(PlanarPoints(means, std::vector<double>(45), 3));
+  EXPECT_THROW(PlanarPoints(means, std::vector<double>(44), 3), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace slamscope::engine
