@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Splats the ellipsoids of all chosen pairs into the visibility buffer: for each pixel of each view
 // the nearest of those that cover it whole, and the nearest of those whose edge runs through it.
-// Those no larger than a tile are done by one lane each; the others are put on a list for the second dispatch, in
-// which kSlices work groups share each of them.
+// Those of at most kSmallBox px are done by one lane each; the others are put on a list for the second
+// dispatch, in which a work group, or for very large ones up to kSlices of them, do one together.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -18,9 +18,11 @@ layout(local_size_x = 64) in;
 // first. Two entries a pixel, views one after another.
 layout(set = 1, binding = 8, scalar) buffer Visibility { uint64_t nearest[]; };
 layout(set = 1, binding = 9) uniform usamplerBuffer nearest_words;  // the same memory
-layout(set = 1, binding = 5, scalar) buffer Large { uint large[]; };  // number, view
+layout(set = 1, binding = 5, scalar) buffer Large { uvec2 large[]; };  // number; view and slices
 
+const int kSmallBox = 64;      // px, either side
 const uint kSlices = 8u;
+const int kRowsOfASlice = 64;
 
 // What the resolve pass needs to shade a pair: three entries a pair, views one after another.
 layout(set = 1, binding = 11, scalar) writeonly buffer Faces { vec4 faces[]; };
@@ -35,9 +37,13 @@ void keepFace(uint view, uint number, Solid s, Seen e) {
   faces[at + 2u] = vec4(e.conic.q.z, u.x, u.y, u.z < 0.0 ? -ratio : ratio);
 }
 
-void touchTile(uint view, uvec2 tile) {
-  const uvec2 tile_counts = tileCounts();
-  tiles[(view * tile_counts.y + tile.y) * tile_counts.x + tile.x] = 1u;
+void touchTiles(uint view, Box box) {
+  const uvec2 all = tileCounts();
+  const uvec2 first = uvec2(box.low) / kTile;
+  const uvec2 last = uvec2(box.high) / kTile;
+  for (uint y = first.y; y <= last.y; ++y) {
+    for (uint x = first.x; x <= last.x; ++x) tiles[(view * all.y + y) * all.x + x] = 1u;
+  }
 }
 
 // What depth and coverage of a pixel need: the conic, and depth = scale (a·D − √F) / |D|² with
@@ -106,16 +112,12 @@ void splatSmall(uint number, uint least_key, inout Tally tally) {
     in_picture = true;
     const ivec2 size = box.high - box.low + 1;
     keepFace(view, number, solid, e);
-    if (max(size.x, size.y) > int(kTile)) {
-      large[atomicAdd(counts.large, 1u)] = number * 2u + view;
+    if (max(size.x, size.y) > kSmallBox) {
+      const uint slices = min(uint(size.y / kRowsOfASlice) + 1u, kSlices);
+      large[atomicAdd(counts.large, 1u)] = uvec2(number, view | slices << 1);
       continue;
     }
-    const uvec2 first = uvec2(box.low) / kTile;
-    const uvec2 last = uvec2(box.high) / kTile;
-    touchTile(view, first);
-    touchTile(view, last);
-    touchTile(view, uvec2(first.x, last.y));
-    touchTile(view, uvec2(last.x, first.y));
+    touchTiles(view, box);
     const uint width = uint(VIEW(size).x);
     const uint base = 2u * view * width * uint(VIEW(size).y);
     const Rays rays = raysOf(e);
@@ -129,24 +131,25 @@ void splatSmall(uint number, uint least_key, inout Tally tally) {
   if (in_picture) ++tally.drawn;
 }
 
-// Work group (i, s): rows s, s + kSlices … of the i-th large one.
+// Work group (i, s): bands of eight rows s, s + slices … of the i-th large one.
 void splatLarge() {
-  for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
-    const uint number = large[i] >> 1;
-    const uint view = large[i] & 1u;
+  const uint count = counts.large;
+  for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
+    const uint number = large[i].x;
+    const uint view = large[i].y & 1u;
+    const uint slices = large[i].y >> 1;
+    const uint slice = gl_WorkGroupID.y;
+    if (slice >= slices) continue;
     const Seen e = seenBy(view, solidOf(pairAt(number)));
     const Box box = boxOf(e);
+    if (slice == 0u && gl_LocalInvocationIndex == 0u) touchTiles(view, box);
     const uint width = uint(VIEW(size).x);
     const uint base = 2u * view * width * uint(VIEW(size).y);
     const Rays rays = raysOf(e);
-    for (uint y = uint(box.low.y) / kTile; y <= uint(box.high.y) / kTile; ++y) {
-      for (uint x = uint(box.low.x) / kTile; x <= uint(box.high.x) / kTile; ++x) {
-        if (gl_LocalInvocationIndex == 0u) touchTile(view, uvec2(x, y));
-      }
-    }
-    for (int y = box.low.y + int(gl_WorkGroupID.y); y <= box.high.y; y += int(kSlices)) {
-      for (int x = box.low.x + int(gl_LocalInvocationID.x); x <= box.high.x; x += 128) {
-        splatPixels(rays, ivec2(x, y), ivec2(64, 0), x + 64 <= box.high.x, base, width, number);
+    const ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
+    for (int y = box.low.y + 8 * int(slice) + lane.y; y <= box.high.y; y += 8 * int(slices)) {
+      for (int x = box.low.x + lane.x; x <= box.high.x; x += 16) {
+        splatPixels(rays, ivec2(x, y), ivec2(8, 0), x + 8 <= box.high.x, base, width, number);
       }
     }
   }

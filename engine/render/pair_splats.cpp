@@ -9,7 +9,7 @@ namespace slamscope::engine {
 namespace {
 
 constexpr std::uint32_t kSlices = 8;
-constexpr std::uint32_t kLargeGroups = 16;  // that go over the list of large ones
+constexpr std::uint32_t kLargeGroups = 32;  // that go over the list of large ones
 constexpr std::size_t kBytesOfAPixel = 2 * sizeof(std::uint64_t);
 constexpr std::size_t kBytesOfAFace = 12 * sizeof(float);
 constexpr std::uint32_t kTile = 32;  // px, as in common/pair_tiles.glsl
@@ -52,7 +52,7 @@ void PairSplats::update(PairData& data, vk::Extent2D extent) {
   visibility_bytes_ = std::size_t{extent.width} * extent.height * views * kBytesOfAPixel;
   tile_count_ = ((extent.width + kTile - 1) / kTile) * ((extent.height + kTile - 1) / kTile);
   visibility_.reserve(visibility_bytes_);
-  large_.reserve(data.pairCount() * views * sizeof(std::uint32_t));
+  large_.reserve(data.pairCount() * views * 2 * sizeof(std::uint32_t));
   faces_.reserve(data.pairCount() * views * kBytesOfAFace);
   tiles_.reserve(tile_count_ * views * sizeof(std::uint32_t));
   for (const auto binding : {PairData::kVisibility, PairData::kDepths, PairData::kNearest}) {

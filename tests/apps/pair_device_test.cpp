@@ -19,12 +19,12 @@ slam::Snapshot simulated() {
   return simulation.filter().snapshot();
 }
 
-/// From above the middle of the map; 1 m is 300 px.
+/// From above the middle of the map; 1 m is 180 px.
 engine::View straightDown() {
   engine::View view;
   view.camera = {.width = 900, .height = 900, .fx = 900.0, .fy = 900.0, .cx = 449.5, .cy = 449.5};
   view.T_eye_scene.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  view.T_eye_scene.translation() = Eigen::Vector3d(-0.4, 0.4, 3.0);
+  view.T_eye_scene.translation() = Eigen::Vector3d(-0.4, 0.4, 5.0);
   return view;
 }
 

@@ -2,6 +2,7 @@
 #include "apps/lib/view/monitor.hpp"
 
 #include "apps/lib/view/monitor_state.hpp"
+#include "apps/lib/view/picked_glyph.hpp"
 
 namespace slamscope::apps {
 
@@ -13,6 +14,11 @@ bool Monitor::next() {
 }
 void Monitor::draw() {
   state_->draw();
+}
+void Monitor::explain(const Eigen::Vector2d& pixel) {
+  if (!state_->shown()) return;
+  state_->choices.message = whatIsAt(pixel, state_->picture.scene, *state_->layer.newest(),
+                                     state_->picture.view, state_->setup.map_scale);
 }
 void Monitor::finish(Ending ending) {
   state_->finish(ending);

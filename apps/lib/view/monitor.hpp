@@ -29,6 +29,7 @@ class Monitor final : public Viewer {
 
   bool next() override;
   void draw() override;
+  void explain(const Eigen::Vector2d& pixel) override;
   void finish(Ending ending) override;
 
   /// What draw() draws, for a window that presents it itself.

@@ -16,7 +16,7 @@ namespace {
 /// 499500 as "499,500".
 std::string thousands(std::size_t number) {
   std::string text = std::to_string(number);
-  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
   return text;
 }
 
@@ -118,9 +118,8 @@ const engine::PlanarPointsPtr& SlamLayer::points() {
 std::string SlamLayer::pairsText(const engine::Scene& scene) const {
   const std::size_t own = ellipsoidCount(scene);
   if (!scene.pairs) return thousands(own) + " ellipsoids";
-  const std::size_t all = scene.pairs->points->pairCount();
-  if (drawn_.all != all) return thousands(all) + " pairs";  // nothing was drawn of these yet
-  return thousands(drawn_.drawn + own) + " of " + thousands(all) + " pairs drawn";
+  if (drawn_.all == 0) return thousands(scene.pairs->points->pairCount()) + " pairs";
+  return thousands(drawn_.drawn + own) + " of " + thousands(drawn_.all) + " pairs drawn";
 }
 
 std::string SlamLayer::runLine(const engine::Scene& scene) const {

@@ -54,7 +54,8 @@ class SlamLayer {
                                       const engine::Pinhole& camera,
                                       const std::vector<std::string>& lines);
 
-  /// What became of the pairs when the scene composed last was drawn: for the next status line.
+  /// What became of the pairs when the scene composed last was drawn. The next status line says it:
+  /// only the device knows, and only afterwards.
   void drawn(const engine::FrameStats::Pairs& pairs) { drawn_ = pairs; }
 
   [[nodiscard]] const slam::SnapshotPtr& newest() const { return slam_.newest(); }

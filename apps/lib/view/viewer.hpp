@@ -30,6 +30,8 @@ class Viewer {
   /// Draws what was taken last and hands it to the outputs; draws it again, with no output, when
   /// called again for the same frame (a window that is paused).
   virtual void draw() = 0;
+  /// Says in the next picture what is at this pixel of drawn(), where the viewer can tell.
+  virtual void explain(const Eigen::Vector2d& pixel) { static_cast<void>(pixel); }
   /// What was drawn stands before the user's eyes now.
   virtual void presented() {}
   enum class Ending { input_ended, user_quit };

@@ -61,7 +61,9 @@ Viewer::Ending runInWindow(Viewer& viewer, const std::string& title, std::option
   Pace pace;
   bool ended = false;
   while (window.open() && !keys.quit() && !interrupted) {
-    handle(window.poll(), keys);
+    const engine::Input input = window.poll();
+    handle(input, keys);
+    for (const engine::Click& click : input.clicks) viewer.explain(click.picture_px);
     const double shown = viewer.secondsShown();
     const bool step = keys.takeStep();
     const bool due = !viewer.paced() || pace.due(shown, viewer.frameSeconds());
