@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -101,6 +102,9 @@ struct Snapshot {
   /// Row of the first coordinate of the feature at `index` in state order.
   [[nodiscard]] static int row(int index) { return 3 + 2 * index; }
   [[nodiscard]] std::optional<int> indexOf(FeatureId id) const;
+  [[nodiscard]] bool isTentative(FeatureId id) const {
+    return std::find(tentative.begin(), tentative.end(), id) != tentative.end();
+  }
   /// Every mean and every logged covariance entry is a finite number.
   [[nodiscard]] bool finite() const;
 };

@@ -43,8 +43,8 @@ void addSlamFlags(CLI::App& verb, MonitorFlags& flags) {
   const std::string group = "SLAM";
   MonitorOptions& rest = flags.rest;
   verb.add_option("--slam", rest.slam,
-                  "simulate, a run (.jsonl, .jsonl.zst, .npz, .npy, .mat), - (standard input) or "
-                  "tcp://HOST:PORT (listens)")
+                  "simulate, laser-lab (a robot with a laser, no ids), a run (.jsonl, .jsonl.zst, "
+                  ".npz, .npy, .mat), - (standard input) or tcp://HOST:PORT (listens)")
       ->group(group);
   verb.add_option("--slam-rate", rest.slam_rate, "seconds of the run per second of the camera")
       ->check(CLI::PositiveNumber)
@@ -111,6 +111,7 @@ void addOutputFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--frames", rest.frames, "stop after so many")
       ->check(CLI::PositiveNumber)
       ->group(group);
+  verb.add_option("--until", rest.until, "stop at that time of the run, s")->group(group);
   verb.add_flag("--window", rest.window, "a window, besides the outputs")->group(group);
   verb.add_option("--device", rest.device, "Vulkan device by index or name (slamscope devices)")
       ->group(group);

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "apps/lib/view/alarm_lines.hpp"
+#include "slam/laser_lab.hpp"
 
 namespace slamscope::apps {
 
@@ -16,6 +17,7 @@ std::optional<RunTruth> truthFor(const MonitorOptions& options) {
     return std::nullopt;
   }
   if (options.slam == "simulate") return truthOfSimulation(options.simulation);
+  if (options.slam == "laser-lab") return truthOfLaserLab(laserLabOf(options.simulation));
   return truthOfRun(options.slam);
 }
 
@@ -96,10 +98,13 @@ std::string SlamLayer::runLine(const engine::Scene& scene) const {
   const slam::Snapshot& snapshot = *slam_.newest();
   const double age =
       feed_->live() ? seconds(slam_.sinceArrival()) : seconds(run_time_ - snapshot.time);
+  const std::string doubted = snapshot.tentative.empty()
+                                  ? std::string()
+                                  : ", " + std::to_string(snapshot.tentative.size()) + " tentative";
   std::snprintf(text, sizeof text,
-                "t %.2f s · record %llu, %.2f s old · %d features · %zu ellipsoids · mode %s",
+                "t %.2f s · record %llu, %.2f s old · %d features%s · %zu ellipsoids · mode %s",
                 seconds(snapshot.time), static_cast<unsigned long long>(snapshot.sequence),
-                std::max(age, 0.0), snapshot.featureCount(), ellipsoidCount(scene),
+                std::max(age, 0.0), snapshot.featureCount(), doubted.c_str(), ellipsoidCount(scene),
                 std::string(slam::pairModeName(choices_.mode)).c_str());
   return text;
 }
@@ -130,6 +135,7 @@ Legend SlamLayer::legend(const Place& place) const {
           .axis = choices_.axis,
           .map_scale = place.map_scale,
           .covariance_rings = choices_.covariance_rings,
+          .tentative = slam_.newest() && !slam_.newest()->tentative.empty(),
           .clusters = clustered() ? clusters.count() : 0,
           .cluster_cut = clusters.cut,
           .automatic_cut = clusters.automatic,
