@@ -66,9 +66,9 @@ std::optional<Sum> normalised(const Eigen::VectorXd& error, const Eigen::MatrixX
 }
 
 /// Listens to one simulation.
-class Listener {
+class RunListener {
  public:
-  explicit Listener(Run& run) : run_(run) {}
+  explicit RunListener(Run& run) : run_(run) {}
 
   void hear(const Snapshot& snapshot) {
     if (snapshot.event == Event::update) nis_ += nisOf(snapshot);
@@ -215,7 +215,7 @@ MonteCarloResult runMonteCarlo(const MonteCarloOptions& options, const MonteCarl
   std::mutex mutex;
   int done = 0;
   parallelFor(options.runs, options.threads, [&](int k) {
-    Listener listener(runs[static_cast<std::size_t>(k)]);
+    RunListener listener(runs[static_cast<std::size_t>(k)]);
     run(options.simulation.seed + static_cast<std::uint64_t>(k),
         [&](const SnapshotPtr& snapshot) { listener.hear(*snapshot); });
     const std::lock_guard lock(mutex);

@@ -17,6 +17,7 @@ struct MrptEkf::Filter {
   explicit Filter(Settings settings) : fast(settings == Settings::fastest) {
     slam.options.std_sensor_range = std::sqrt(0.0036F);
     slam.options.std_sensor_yaw = std::sqrt(0.0016F);
+    slam.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     if (!fast) return;
     slam.KF_options.method = mrpt::bayes::kfEKFAlaDavison;
     slam.options.create_simplemap = false;
