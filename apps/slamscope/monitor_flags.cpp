@@ -111,7 +111,6 @@ void addOutputFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--frames", rest.frames, "stop after so many")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  verb.add_option("--until", rest.until, "stop at that time of the run, s")->group(group);
   verb.add_flag("--window", rest.window, "a window, besides the outputs")->group(group);
   verb.add_option("--device", rest.device, "Vulkan device by index or name (slamscope devices)")
       ->group(group);
@@ -189,6 +188,7 @@ void addMonitorFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--compare", rest.compare,
                   "one PNG or JPEG: start and end of the run beside each other")
       ->group(kOutputGroup);
+  verb.add_option("--until", rest.until, "stop at that time of the run, s")->group(kOutputGroup);
   verb.add_option("--lab-truth", rest.lab_truth, "JSON: the lab's camera, poses and features")
       ->group(kOutputGroup);
 }
