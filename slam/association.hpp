@@ -8,8 +8,8 @@
 
 namespace slamscope::slam {
 
-/// How it is found out which feature a reading is of: by the ids of the readings; the nearest
-/// individually compatible feature; or the largest jointly compatible set of pairings.
+/// How it is found out which feature a reading is of: by the ids of the readings; the likeliest
+/// individually compatible feature; or the likeliest jointly compatible set of pairings.
 enum class Association { known, nearest, joint };
 
 /// χ² gates, given by the share of right pairings that they let through. What is compared with the
@@ -20,9 +20,15 @@ struct AssociationGates {
   /// time are of: a new feature. A reading between the two is ambiguous: it neither corrects nor
   /// makes a feature.
   double fresh = 0.9999;
+  /// Features a m² of floor that the map does not have yet, as far as one knows. A reading is
+  /// paired only where it is likelier to be of that feature, N(ν; 0, S), than of one of these:
+  /// after a long blind drive nearly everything is inside of a gate. Next to nothing: pairs as many
+  /// as it can.
+  double fresh_density = 1e-9;
   /// A pairing counts only where the readings are so many times likelier with it than with what
-  /// rivals it: another feature for the same reading (nearest), another set of as many pairings
-  /// (joint). 1: whatever is best is taken. A wrong pairing costs more than one that is left out.
+  /// rivals it: a new feature, another feature for the same reading (nearest), another set of
+  /// pairings (joint). 1: whatever is best is taken. A wrong pairing costs more than one that is
+  /// left out.
   double odds = 1.0;
   /// Pairings that a joint search may try before the best set found so far is taken.
   int search_limit = 20000;
@@ -33,10 +39,12 @@ struct Matches {
   static constexpr int kFresh = -1;      ///< of a feature that the map doesn't have
   static constexpr int kAmbiguous = -2;  ///< can't be told
 
-  std::vector<int> feature;       ///< of each reading: index in state order, or one of the above
-  std::vector<bool> hinted;       ///< of each feature: a reading lies in its wider ellipse
-  double squared_distance = 0.0;  ///< of the pairings: their sum (nearest) or joint (joint)
-  bool cut_short = false;         ///< a joint search reached its limit
+  std::vector<int> feature;  ///< of each reading: index in state order, or one of the above
+  std::vector<bool> hinted;  ///< of each feature: a reading lies in its wider ellipse
+  /// Log of how many times likelier the readings are with the pairings than if all were of new
+  /// features.
+  double gain = 0.0;
+  bool cut_short = false;  ///< a joint search reached its limit
 };
 
 /// What a sensor would read off a feature, and how sure the filter is of that.
@@ -67,7 +75,7 @@ class Associator {
   Association association_;
   AssociationGates gates_;
   double fresh_quantile_;
-  double margin_;                      ///< of squared distances, that `odds` amount to
+  double margin_;                      ///< of log-likelihoods: ln odds
   std::vector<double> pair_quantile_;  ///< of 2, 4, 6 … degrees of freedom
 };
 

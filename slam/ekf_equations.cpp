@@ -67,8 +67,7 @@ void solveCorrection(const EkfState& state, Correction& c) {
   c.S_factor.compute(c.S);
   c.applied = c.S.allFinite() && c.innovation.allFinite() && c.S_factor.info() == Eigen::Success;
   if (!c.applied) return;
-  c.Y = c.PHt;  // (11)
-  solveFromTheRight(c.S_factor.matrixLLT(), c.Y);
+  solveFromTheRight(c.S_factor.matrixLLT(), c.PHt, c.Y);  // (11)
 }
 
 }  // namespace

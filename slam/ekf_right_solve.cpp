@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 
 #include "slam/vector4.hpp"
 
@@ -29,29 +30,39 @@ void solvePanel(const double* L, std::ptrdiff_t m, double* panel) {
   }
 }
 
+/// Rows `row` … `row` + `rows` − 1. With sixteen rows known when compiled, copies are a few moves.
+template <typename Rows>
+void solveRows(const Eigen::MatrixXd& L, const Eigen::MatrixXd& B, std::ptrdiff_t row, Rows rows,
+               Eigen::MatrixXd& Y) {
+  alignas(32) double panel[kPanelRows * kPanelCols];
+  const std::ptrdiff_t size = B.rows();
+  const std::ptrdiff_t m = B.cols();
+  for (std::ptrdiff_t k = 0; k < m; ++k) {
+    double* const column = panel + k * kPanelRows;
+    std::copy_n(B.data() + k * size + row, rows, column);
+    std::fill_n(column + rows, kPanelRows - rows, 0.0);
+  }
+  solvePanel(L.data(), m, panel);
+  for (std::ptrdiff_t k = 0; k < m; ++k) {
+    std::copy_n(panel + k * kPanelRows, rows, Y.data() + k * size + row);
+  }
+}
+
 }  // namespace
 
-void solveFromTheRight(const Eigen::MatrixXd& L, Eigen::MatrixXd& Y) {
-  const std::ptrdiff_t size = Y.rows();
-  const std::ptrdiff_t m = Y.cols();
-  if (m > kPanelCols) {
+void solveFromTheRight(const Eigen::MatrixXd& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& Y) {
+  const std::ptrdiff_t size = B.rows();
+  if (B.cols() > kPanelCols) {
+    Y = B;
     L.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(Y);
     return;
   }
-  alignas(32) double panel[kPanelRows * kPanelCols];
-  for (std::ptrdiff_t row = 0; row < size; row += kPanelRows) {
-    const std::ptrdiff_t rows = std::min(kPanelRows, size - row);
-    double* const first = Y.data() + row;
-    for (std::ptrdiff_t k = 0; k < m; ++k) {
-      double* const column = panel + k * kPanelRows;
-      std::copy_n(first + k * size, rows, column);
-      std::fill_n(column + rows, kPanelRows - rows, 0.0);
-    }
-    solvePanel(L.data(), m, panel);
-    for (std::ptrdiff_t k = 0; k < m; ++k) {
-      std::copy_n(panel + k * kPanelRows, rows, first + k * size);
-    }
+  Y.resize(size, B.cols());
+  std::ptrdiff_t row = 0;
+  for (; row + kPanelRows <= size; row += kPanelRows) {
+    solveRows(L, B, row, std::integral_constant<std::ptrdiff_t, kPanelRows>(), Y);
   }
+  if (row < size) solveRows(L, B, row, size - row, Y);
 }
 
 }  // namespace slamscope::slam

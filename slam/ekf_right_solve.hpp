@@ -5,8 +5,8 @@
 
 namespace slamscope::slam {
 
-/// Y ← Y L⁻ᵀ for Y (N×m) and the lower triangle of L (m×m): P Hᵀ to the Y of (11). Sixteen rows at
+/// Y ← B L⁻ᵀ for B (N×m) and the lower triangle of L (m×m): P Hᵀ to the Y of (11). Sixteen rows at
 /// a time, in registers and first cache. Compiled for several instruction sets.
-void solveFromTheRight(const Eigen::MatrixXd& L, Eigen::MatrixXd& Y);
+void solveFromTheRight(const Eigen::MatrixXd& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& Y);
 
 }  // namespace slamscope::slam

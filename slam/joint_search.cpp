@@ -10,21 +10,18 @@ namespace {
 /// Readings with few candidates first: a wrong start is then found out early.
 void orderGroups(std::vector<std::vector<Pairing>>& groups) {
   for (auto& group : groups) {
-    std::sort(group.begin(), group.end(), [](const Pairing& a, const Pairing& b) {
-      return a.squared_distance < b.squared_distance;
-    });
+    std::sort(group.begin(), group.end(),
+              [](const Pairing& a, const Pairing& b) { return a.gain > b.gain; });
   }
   std::stable_sort(groups.begin(), groups.end(), [](const auto& a, const auto& b) {
-    return a.size() != b.size() ? a.size() < b.size()
-                                : a.front().squared_distance < b.front().squared_distance;
+    return a.size() != b.size() ? a.size() < b.size() : a.front().gain > b.front().gain;
   });
 }
 
 }  // namespace
 
-JointSearch::JointSearch(const EkfState& state, std::span<const ExpectedReading> expected,
-                         std::span<const Observation> readings, const Limits& limits)
-    : state_(state), expected_(expected), readings_(readings), limits_(limits) {}
+JointSearch::JointSearch(Covariance covariance, const Limits& limits)
+    : covariance_(std::move(covariance)), limits_(limits) {}
 
 JointSearch::Result JointSearch::run(std::vector<Pairing> compatible) {
   std::stable_sort(compatible.begin(), compatible.end(),
@@ -40,6 +37,12 @@ JointSearch::Result JointSearch::run(std::vector<Pairing> compatible) {
     best_.cut_short = true;
   }
   const auto rows = static_cast<Eigen::Index>(2 * groups_.size());
+  hope_.assign(groups_.size() + 1, 0.0);
+  for (std::size_t k = groups_.size(); k-- > 0;) {
+    double most = 0.0;
+    for (const Pairing& pairing : groups_[k]) most = std::max(most, pairing.most);
+    hope_[k] = hope_[k + 1] + most;
+  }
   L_.setZero(rows, rows);
   whitened_.setZero(rows);
   branch(0);
@@ -61,36 +64,27 @@ void JointSearch::branch(std::size_t group) {
     if (taken || !push(pairing)) continue;
     branch(group + 1);
     current_.pop_back();
-    squared_.pop_back();
+    sums_.pop_back();
   }
-  // The bound: without this reading, can the set still become larger, or as large and nearer?
-  const std::size_t reachable = current_.size() + groups_.size() - group - 1;
-  const double squared = squared_.empty() ? 0.0 : squared_.back();
-  const bool hopeful =
-      reachable > best_.pairings.size() ||
-      (reachable == best_.pairings.size() && squared < best_.squared_distance + limits_.margin);
-  if (hopeful) branch(group + 1);
+  // The bound: without this reading, can the set still become as good?
+  if (sums().gain + hope_[group + 1] > best_.gain - limits_.margin) branch(group + 1);
 }
 
 /// Keeps the set if it is the best so far, or rivals it.
 void JointSearch::keep() {
-  const double squared = squared_.empty() ? 0.0 : squared_.back();
-  const std::size_t most = best_.pairings.size();
-  if (current_.size() < most) return;
-  if (current_.size() > most) rivals_.clear();
-  const bool better = current_.size() > most || squared < best_.squared_distance;
-  if (!better && squared > best_.squared_distance + limits_.margin) return;
-  if (limits_.margin > 0.0) rivals_.push_back({current_, squared});
-  if (!better) return;
+  const double gain = sums().gain;
+  if (gain < best_.gain - limits_.margin) return;
+  if (limits_.margin > 0.0) rivals_.push_back({current_, gain});
+  if (!(gain > best_.gain)) return;
   best_.pairings = current_;
-  best_.squared_distance = squared;
+  best_.gain = gain;
 }
 
 void JointSearch::strikeDisputed() {
   std::vector<Pairing> agreed;
   for (const Pairing& pairing : best_.pairings) {
     const bool disputed = std::any_of(rivals_.begin(), rivals_.end(), [&](const Result& rival) {
-      return rival.squared_distance <= best_.squared_distance + limits_.margin &&
+      return rival.gain >= best_.gain - limits_.margin &&
              std::none_of(rival.pairings.begin(), rival.pairings.end(), [&](const Pairing& other) {
                return other.reading == pairing.reading && other.feature == pairing.feature;
              });
@@ -106,18 +100,15 @@ bool JointSearch::push(const Pairing& pairing) {
   const auto row = static_cast<Eigen::Index>(2 * current_.size());
   for (std::size_t k = 0; k < current_.size(); ++k) {
     const auto col = static_cast<Eigen::Index>(2 * k);
-    Eigen::Matrix2d W = crossCovariance(pairing.feature, current_[k].feature);
+    Eigen::Matrix2d W = covariance_(pairing, current_[k]);
     W.noalias() -= L_.block(row, 0, 2, col) * L_.block(col, 0, 2, col).transpose();
     // W ← W L_kk⁻ᵀ by forward substitution over two columns
     W.col(0) /= L_(col, col);
     W.col(1) = (W.col(1) - L_(col + 1, col) * W.col(0)) / L_(col + 1, col + 1);
     L_.block<2, 2>(row, col) = W;
   }
-  const auto reading = static_cast<std::size_t>(pairing.reading);
-  const auto feature = static_cast<std::size_t>(pairing.feature);
   const auto before = L_.block(row, 0, 2, row);
-  const Eigen::Matrix2d S = expected_[feature].HPHt + readings_[reading].R;
-  const Eigen::Matrix2d D = S - before * before.transpose();
+  const Eigen::Matrix2d D = covariance_(pairing, pairing) - before * before.transpose();
   const double l00 = std::sqrt(D(0, 0));
   const double l10 = D(1, 0) / l00;
   const double l11 = std::sqrt(D(1, 1) - l10 * l10);
@@ -125,29 +116,14 @@ bool JointSearch::push(const Pairing& pairing) {
   const Eigen::Vector2d rest = pairing.innovation - before * whitened_.head(row);
   const double w0 = rest[0] / l00;
   const double w1 = (rest[1] - l10 * w0) / l11;
-  const double squared = (squared_.empty() ? 0.0 : squared_.back()) + w0 * w0 + w1 * w1;
+  const double distance = w0 * w0 + w1 * w1;
+  const double squared = sums().squared + distance;
   if (!(squared <= limits_.quantiles[current_.size()])) return false;
   L_.block<2, 2>(row, row) << l00, 0.0, l10, l11;
   whitened_.segment<2>(row) << w0, w1;
   current_.push_back(pairing);
-  squared_.push_back(squared);
+  sums_.push_back({squared, sums().gain + pairing.bonus - 0.5 * distance - std::log(l00 * l11)});
   return true;
-}
-
-/// H_a P H_bᵀ of two features' readings, from the lower triangle of P.
-Eigen::Matrix2d JointSearch::crossCovariance(int a, int b) const {
-  const ExpectedReading& of_a = expected_[static_cast<std::size_t>(a)];
-  const ExpectedReading& of_b = expected_[static_cast<std::size_t>(b)];
-  const int row_a = Snapshot::row(a);
-  const int row_b = Snapshot::row(b);
-  const Eigen::Matrix3d P_vv = state_.P.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
-  const Matrix23d P_av = state_.P.block<2, 3>(row_a, 0);
-  const Matrix23d P_bv = state_.P.block<2, 3>(row_b, 0);
-  const Eigen::Matrix2d P_ab =
-      row_a > row_b ? Eigen::Matrix2d(state_.P.block<2, 2>(row_a, row_b))
-                    : Eigen::Matrix2d(state_.P.block<2, 2>(row_b, row_a).transpose());
-  return (of_a.H_v * P_vv + of_a.H_f * P_av) * of_b.H_v.transpose() +
-         (of_a.H_v * P_bv.transpose() + of_a.H_f * P_ab) * of_b.H_f.transpose();
 }
 
 }  // namespace slamscope::slam

@@ -2,6 +2,7 @@
 #include "slam/map_builder.hpp"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 namespace slamscope::slam {
@@ -37,13 +38,12 @@ void MapBuilder::observe(std::chrono::nanoseconds time, std::span<const Observat
   counters_.cut_searches += matches.cut_short ? 1 : 0;
   seen_last_.clear();
   const std::vector<Observation> observations = named(readings, matches);
-  const std::vector<FeatureId> gone = unseen(expected, matches, view);
   announceTentative();
-  for (const FeatureId id : gone) {
+  filter_.observe(time, observations);
+  for (const FeatureId id : missing(matches, view)) {
     ++counters_.dropped;
     remove(id);
   }
-  filter_.observe(time, observations);
 }
 
 bool MapBuilder::confirmed(FeatureId id) const {
@@ -51,20 +51,31 @@ bool MapBuilder::confirmed(FeatureId id) const {
   return life != lives_.end() && life->second.confirmed;
 }
 
-FeatureId MapBuilder::nameOf(FeatureId id) const {
-  const auto life = lives_.find(id);
-  if (life == lives_.end() || life->second.ids.empty()) return kNoFeature;
-  const auto& ids = life->second.ids;
-  return std::max_element(ids.begin(), ids.end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->first;
+std::map<FeatureId, FeatureId> MapBuilder::names() const {
+  struct Votes {
+    int count;
+    FeatureId feature, carried;
+  };
+  std::vector<Votes> all;
+  for (const auto& [id, life] : lives_) {
+    for (const auto& [carried, times] : life.ids) all.push_back({times, id, carried});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Votes& a, const Votes& b) { return a.count > b.count; });
+  std::map<FeatureId, FeatureId> names;
+  std::set<FeatureId> given;
+  for (const Votes& votes : all) {
+    if (names.contains(votes.feature) || !given.insert(votes.carried).second) continue;
+    names[votes.feature] = votes.carried;
+  }
+  for (const Votes& votes : all) names.try_emplace(votes.feature, votes.carried);
+  return names;
 }
 
 std::uint64_t MapBuilder::mispaired() const {
   std::uint64_t count = 0;
-  for (const auto& [id, life] : lives_) {
-    const FeatureId name = nameOf(id);
-    for (const auto& [carried, times] : life.ids) {
+  for (const auto& [id, name] : names()) {
+    for (const auto& [carried, times] : lives_.at(id).ids) {
       if (carried != name) count += static_cast<std::uint64_t>(times);
     }
   }
@@ -106,11 +117,14 @@ void MapBuilder::see(FeatureId id, FeatureId carried) {
   ++counters_.confirmed;
 }
 
-/// Features that were expected once too often, or in doubt for too long.
-std::vector<FeatureId> MapBuilder::unseen(std::span<const ExpectedReading> expected,
-                                          const Matches& matches, const View& view) {
+/// Features that were expected and not seen once too often, or in doubt for too long. Asked after
+/// the update, by which the robot knows best where it looked.
+std::vector<FeatureId> MapBuilder::missing(const Matches& matches, const View& view) {
   std::vector<FeatureId> gone;
-  for (std::size_t k = 0; k < expected.size(); ++k) {
+  const std::vector<ExpectedReading> expected =
+      view ? expectedReadings(filter_.state(), filter_.options().sensor)
+           : std::vector<ExpectedReading>{};
+  for (std::size_t k = 0; k < matches.hinted.size(); ++k) {  // those born now come after them
     const FeatureId id = filter_.state().ids[k];
     Life& life = lives_[id];
     if (matches.hinted[k]) continue;

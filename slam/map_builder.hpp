@@ -59,17 +59,19 @@ class MapBuilder {
              const FeatureLifeOptions& life);
 
   /// All readings of one time, to which the filter has predicted. Features are called 1, 2, 3 …;
-  /// the readings' ids are not looked at, but for keeping count (`nameOf`, `mispaired`). Without a
+  /// the readings' ids are not looked at, but for keeping count (`names`, `mispaired`). Without a
   /// view nothing is ever expected.
   void observe(std::chrono::nanoseconds time, std::span<const Observation> readings,
                const View& view = {});
 
   [[nodiscard]] const MapCounters& counters() const { return counters_; }
   [[nodiscard]] bool confirmed(FeatureId id) const;
-  /// The id that most readings of this feature carried; 0 where they carried none. For scores on
-  /// recordings whose ids are known and only hidden from the association.
-  [[nodiscard]] FeatureId nameOf(FeatureId id) const;
-  /// Readings of features of the map that carried another id than nameOf().
+  /// Feature → the id that its readings carried, for features of whose readings some carried one.
+  /// Each id goes to one feature, those with most readings first; a feature for which none is left
+  /// gets its own most frequent one, as a duplicate. For scores on recordings whose ids are known
+  /// and only hidden from the association.
+  [[nodiscard]] std::map<FeatureId, FeatureId> names() const;
+  /// Readings of features of the map that carried another id than that.
   [[nodiscard]] std::uint64_t mispaired() const;
 
  private:
@@ -84,8 +86,7 @@ class MapBuilder {
   [[nodiscard]] std::vector<Observation> named(std::span<const Observation> readings,
                                                const Matches& matches);
   void see(FeatureId id, FeatureId carried);
-  [[nodiscard]] std::vector<FeatureId> unseen(std::span<const ExpectedReading> expected,
-                                              const Matches& matches, const View& view);
+  [[nodiscard]] std::vector<FeatureId> missing(const Matches& matches, const View& view);
   [[nodiscard]] std::vector<Observation> births(std::span<const Observation> fresh);
   void mergeDuplicates();
   [[nodiscard]] FeatureId duplicateOf(FeatureId id) const;

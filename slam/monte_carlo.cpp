@@ -66,9 +66,9 @@ std::optional<Sum> normalised(const Eigen::VectorXd& error, const Eigen::MatrixX
 }
 
 /// Listens to one simulation.
-class Listener {
+class RunListener {
  public:
-  explicit Listener(Run& run) : run_(run) {}
+  explicit RunListener(Run& run) : run_(run) {}
 
   void hear(const Snapshot& snapshot) {
     if (snapshot.event == Event::update) nis_ += nisOf(snapshot);
@@ -133,19 +133,6 @@ class Listener {
   Sum nis_;
 };
 
-Run simulate(SimulationOptions options, int k) {
-  options.seed += static_cast<std::uint64_t>(k);
-  options.record_jacobians = true;
-  Simulation simulation(options);
-  Run run;
-  Listener listener(run);
-  const Subscription subscription =
-      simulation.filter().observe([&](const SnapshotPtr& snapshot) { listener.hear(*snapshot); });
-  while (simulation.step()) {
-  }
-  return run;
-}
-
 /// `band_dof`: what the band is taken of, where that is not the sum's own.
 Consistency consistency(const Sum& sum, double band_dof, double confidence) {
   if (!(sum.dof > 0.0)) return {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0, 0.0};
@@ -207,6 +194,18 @@ MonteCarloResult summarise(const std::vector<Run>& runs, const MonteCarloOptions
 }  // namespace
 
 MonteCarloResult runMonteCarlo(const MonteCarloOptions& options) {
+  return runMonteCarlo(options, [&](std::uint64_t seed, const Subject::Callback& listener) {
+    SimulationOptions mine = options.simulation;
+    mine.seed = seed;
+    mine.record_jacobians = true;
+    Simulation simulation(mine);
+    const Subscription subscription = simulation.filter().observe(listener);
+    while (simulation.step()) {
+    }
+  });
+}
+
+MonteCarloResult runMonteCarlo(const MonteCarloOptions& options, const MonteCarloRun& run) {
   if (options.runs < 1 || !(options.confidence > 0.0 && options.confidence < 1.0)) {
     throw std::invalid_argument("Monte Carlo needs runs ≥ 1 and a confidence in (0, 1), got " +
                                 std::to_string(options.runs) + " and " +
@@ -216,7 +215,9 @@ MonteCarloResult runMonteCarlo(const MonteCarloOptions& options) {
   std::mutex mutex;
   int done = 0;
   parallelFor(options.runs, options.threads, [&](int k) {
-    runs[static_cast<std::size_t>(k)] = simulate(options.simulation, k);
+    RunListener listener(runs[static_cast<std::size_t>(k)]);
+    run(options.simulation.seed + static_cast<std::uint64_t>(k),
+        [&](const SnapshotPtr& snapshot) { listener.hear(*snapshot); });
     const std::lock_guard lock(mutex);
     ++done;
     if (options.progress) options.progress(done);

@@ -60,4 +60,13 @@ struct MonteCarloResult {
 /// std::invalid_argument for options out of range.
 [[nodiscard]] MonteCarloResult runMonteCarlo(const MonteCarloOptions& options);
 
+/// One run of something else than Simulation: has `listener` hear all events of its filter, with
+/// Jacobians recorded and the truth of pose and features in every snapshot. All seeds have the same
+/// number of time steps.
+using MonteCarloRun = std::function<void(std::uint64_t seed, const Subject::Callback& listener)>;
+
+/// The same of such runs; of `options.simulation` only the seed and the number of features count.
+[[nodiscard]] MonteCarloResult runMonteCarlo(const MonteCarloOptions& options,
+                                             const MonteCarloRun& run);
+
 }  // namespace slamscope::slam

@@ -96,7 +96,6 @@ Recording readMrclam(const std::string& directory, int robot) {
   const std::string of_robot = base + "Robot" + std::to_string(robot) + "_";
   Recording recording;
   recording.name = "MR.CLAM robot " + std::to_string(robot);
-  recording.separation = 0.1;
   readOdometry(of_robot + "Odometry.dat", recording);
   readSightings(of_robot + "Measurement.dat", readBarcodes(base + "Barcodes.dat"), recording);
   readTruePath(of_robot + "Groundtruth.dat", recording);

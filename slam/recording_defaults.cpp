@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "slam/recording_defaults.hpp"
-
-#include <numbers>
-
 namespace slamscope::slam {
 
 RecordingRunOptions usualOptions(const Recording& recording, Association association) {
@@ -21,7 +18,7 @@ RecordingRunOptions usualOptions(const Recording& recording, Association associa
   options.life.confirm_after = 4;
   options.life.drop_after = 6;
   options.life.longest_doubt = std::chrono::nanoseconds(0);
-  options.view = {4.0, std::numbers::pi / 9.0};
+  options.view = {4.0, 0.35};
   return options;
 }
 

@@ -67,17 +67,17 @@ bool RecordingRun::step() {
     filter_.start(recording_.start());
     return true;
   }
-  if (next_ == recording_.sensedCount()) return false;
-  const nanoseconds time = recording_.sensedAt(next_);
-  const nanoseconds latest = filter_.time() + options_.longest_prediction;
-  if (time > latest) {
-    predictTo(latest);
-    return true;
-  }
-  predictTo(time);
-  sense(next_);
-  ++next_;
+  const std::optional<nanoseconds> time = nextTime();
+  if (!time) return false;
+  predictTo(*time);
+  if (*time == recording_.sensedAt(next_)) sense(next_++);
   return true;
+}
+
+std::optional<nanoseconds> RecordingRun::nextTime() const {
+  if (!started_) return recording_.start();
+  if (next_ == recording_.sensedCount()) return std::nullopt;
+  return std::min(recording_.sensedAt(next_), filter_.time() + options_.longest_prediction);
 }
 
 double RecordingRun::progress() const {
@@ -109,10 +109,9 @@ std::optional<MapCounters> RecordingRun::mapCounters() const {
 }
 
 std::map<FeatureId, FeatureId> RecordingRun::hiddenNames() const {
-  std::map<FeatureId, FeatureId> names;
-  for (const FeatureId id : filter_.state().ids) {
-    if (map_ && map_->confirmed(id) && map_->nameOf(id) != 0) names[id] = map_->nameOf(id);
-  }
+  if (!map_) return {};
+  std::map<FeatureId, FeatureId> names = map_->names();
+  std::erase_if(names, [this](const auto& named) { return !map_->confirmed(named.first); });
   return names;
 }
 
@@ -155,13 +154,13 @@ void RecordingRun::sense(std::size_t index) {
     return;
   }
   filter_.observe(sightings.time, observationsOf(sightings));
-  watchIds();
+  watchIds(sightings);
 }
 
 /// Notes ids whose sightings fall outside the gate time after time.
-void RecordingRun::watchIds() {
+void RecordingRun::watchIds(const Sightings& sightings) {
   const auto& rejected = filter_.rejected();
-  for (const Sighting& seen : recording_.sightings[next_].seen) {
+  for (const Sighting& seen : sightings.seen) {
     int& in_a_row = rejected_in_a_row_[seen.id];
     const bool out = std::find(rejected.begin(), rejected.end(), seen.id) != rejected.end();
     in_a_row = out ? in_a_row + 1 : 0;

@@ -75,6 +75,8 @@ class RecordingRun {
   /// features.
   bool step();
 
+  /// To which time the next step() goes; absent at the end.
+  [[nodiscard]] std::optional<std::chrono::nanoseconds> nextTime() const;
   [[nodiscard]] double progress() const;  ///< 0 … 1
   [[nodiscard]] RunHeader header() const;
   [[nodiscard]] const Recording& recording() const { return recording_; }
@@ -94,7 +96,7 @@ class RecordingRun {
   void sense(std::size_t index);
   [[nodiscard]] std::vector<Observation> observationsOf(const Sightings& sightings) const;
   [[nodiscard]] MapBuilder::View limitedView() const;
-  void watchIds();
+  void watchIds(const Sightings& sightings);
   void publishTruth(std::chrono::nanoseconds time);
 
   Recording recording_;

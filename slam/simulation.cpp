@@ -145,6 +145,7 @@ Motion Simulation::odometry(int step) {
   // the camera's view. Wheels that stand still are read exactly.
   if (options_.motion == MotionInput::increment) return increments(velocity, duration);
   if (velocity.isZero()) return Motion::fromVelocity(0.0, 0.0, duration, Eigen::Matrix2d::Zero());
+  if (options_.motion == MotionInput::ackermann) return steered(velocity, duration);
   const Eigen::Vector2d& sigma = options_.odometry_sigma;
   const double forward = velocity[0] + sigma[0] * odometry_noise_.normal();
   const double turn = velocity[1] + sigma[1] * odometry_noise_.normal();
@@ -160,6 +161,19 @@ Motion Simulation::increments(const Eigen::Vector2d& velocity, double duration) 
   Eigen::Vector3d increment = arcIncrement(velocity, duration);
   for (int k = 0; k < 3; ++k) increment[k] += sigmas[k] * odometry_noise_.normal();
   return Motion::fromIncrement(increment, sigmas.array().square().matrix().asDiagonal());
+}
+
+Motion Simulation::steered(const Eigen::Vector2d& velocity, double duration) {
+  constexpr AckermannGeometry kCar{.wheelbase = 0.3};
+  const Eigen::Vector2d& sigma = options_.odometry_sigma;
+  Eigen::Vector2d control(velocity[0], std::atan2(kCar.wheelbase * velocity[1], velocity[0]));
+  for (int k = 0; k < 2; ++k) control[k] += sigma[k] * odometry_noise_.normal();
+  Eigen::Matrix2d J;
+  const Eigen::Vector2d read = ackermannVelocity(kCar, control, &J);
+  const Eigen::Matrix2d variance = sigma.array().square().matrix().asDiagonal();
+  Motion motion = Motion::fromVelocity(read[0], read[1], duration, J * variance * J.transpose());
+  motion.control = control;
+  return motion;
 }
 
 std::vector<Observation> Simulation::readings() {

@@ -14,9 +14,10 @@
 
 namespace slamscope::slam {
 
-/// What the odometry reports: (forward, turn) velocities, or how far the robot came since the last
-/// time step (dx, dy, dθ in its frame).
-enum class MotionInput { velocity, increment };
+/// What the odometry reports: (forward, turn) velocities; how far the robot came since the last
+/// time step (dx, dy, dθ in its frame); or speed and steering of a car with 0.3 m from axle to
+/// axle.
+enum class MotionInput { velocity, increment, ackermann };
 
 struct SimulationOptions {
   WorldKind world = WorldKind::three_clusters;
@@ -36,8 +37,8 @@ struct SimulationOptions {
   /// Default: 0.06 m and 0.04 rad, or 0.05 m twice.
   std::optional<Eigen::Vector2d> sensor_sigma{};
   MotionInput motion = MotionInput::velocity;
-  /// σ of forward (m/s) and turn (rad/s); none at rest. Of an increment: these times the time step,
-  /// the first of them sideways too.
+  /// σ of forward (m/s) and turn (rad/s), of a car of speed and steering (rad); none at rest. Of an
+  /// increment: these times the time step, the first of them sideways too.
   Eigen::Vector2d odometry_sigma{0.03, 0.06};
   double rate = 10.0;                         ///< time steps and readings, 1/s
   double speed = 0.25;                        ///< m/s
@@ -87,6 +88,7 @@ class Simulation {
   void moveFeatures();
   [[nodiscard]] Motion odometry(int step);
   [[nodiscard]] Motion increments(const Eigen::Vector2d& velocity, double duration);
+  [[nodiscard]] Motion steered(const Eigen::Vector2d& velocity, double duration);
   [[nodiscard]] std::vector<Observation> readings();
   [[nodiscard]] bool inView(const Eigen::Vector2d& feature) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -103,6 +104,9 @@ struct Snapshot {
   [[nodiscard]] std::optional<int> indexOf(FeatureId id) const;
   /// P_vv, of x, y (m²), θ (rad²).
   [[nodiscard]] Eigen::Matrix3d poseCovariance() const;
+  [[nodiscard]] bool isTentative(FeatureId id) const {
+    return std::find(tentative.begin(), tentative.end(), id) != tentative.end();
+  }
   /// Every mean and every logged covariance entry is a finite number.
   [[nodiscard]] bool finite() const;
 };

@@ -24,6 +24,14 @@ struct World {
   std::vector<Eigen::Vector2d> features;  ///< m
 };
 
+/// A wall seen from above, in the frame of the map.
+struct LaserWall {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
+  /// It sends a beam back only where the beam meets it squarely; any other comes back from nowhere.
+  bool glossy = false;
+};
+
 /// The 1 m × 1 m loop has its centre here; all features stand within ±1.45 m of it in x and in y,
 /// and at least 0.2 m off the loop.
 inline const Eigen::Vector2d kLoopCentre{0.0, 0.5};

@@ -19,6 +19,13 @@ struct LabPost {
   Eigen::Vector2d p_map = Eigen::Vector2d::Zero();  ///< axis of the post, map frame, m
 };
 
+/// A board that stands upright on the floor: a wall as high as a laser looks.
+struct LabBoard {
+  Eigen::Vector2d from_map = Eigen::Vector2d::Zero();  ///< m
+  Eigen::Vector2d to_map = Eigen::Vector2d::Zero();    ///< m
+  bool glossy = false;                                 ///< lacquered; else wood
+};
+
 /// A printed AprilTag (36h11) in the room. Tag frame: origin in the tag's centre; seen upright from
 /// the front, x to the right, y up, z out of the paper towards the viewer. So a tag that lies on
 /// the floor with z up has T_world_tag = (x, y, 0) and a turn about z. Libapriltag's corners 0..3
@@ -37,6 +44,7 @@ struct LabOptions {
   std::vector<LabTag> tags;                                       ///< see defaultFloorTags
   std::vector<LabPost> posts;
   double post_radius = 0.02, post_height = 0.18;  ///< m
+  std::vector<LabBoard> boards;
 
   /// Half width (x) and depth (y) of the room, m: walls and a ceiling 2.7 m up. 0: walls far away.
   Eigen::Vector2d walls = Eigen::Vector2d::Zero();

@@ -40,6 +40,7 @@ Room::Room(const LabOptions& options)
       light_(makeLight(options)) {
   if (!(options.post_radius > 0 && options.post_height > kFootHeight))
     throw std::invalid_argument("posts need a radius and a height above 5 mm");
+  addBoards(options);
   for (const LabTag& tag : options.tags)
     tags_.push_back({.face = TagFace(tag.id, tag.size),
                      .ball = {tag.T_world_tag.translation(), 0.93 * tag.size},
@@ -66,6 +67,23 @@ LightMap Room::makeLight(const LabOptions& options) {
     upper = upper.cwiseMax(blocker.p_world + Eigen::Vector2d::Constant(1));
   }
   return {lower, upper, all};
+}
+
+void Room::addBoards(const LabOptions& options) {
+  constexpr double kHeight = 0.20, kHalfThickness = 0.01;  // m
+  for (const LabBoard& board : options.boards) {
+    const auto inWorld = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
+      return (options.T_world_map * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>();
+    };
+    const Eigen::Vector2d from = inWorld(board.from_map), to = inWorld(board.to_map);
+    const Eigen::Vector2d middle = (from + to) / 2, half((to - from).norm() / 2, kHalfThickness);
+    const double yaw = std::atan2(to.y() - from.y(), to.x() - from.x());
+    things_.push_back(
+        {.shape = makeBox(middle, half, 0, kHeight, yaw),
+         .ball = {{middle.x(), middle.y(), kHeight / 2},
+                  1.001 * std::hypot(half.norm(), kHeight / 2)},
+         .albedo = board.glossy ? Eigen::Array3f(206, 190, 170) : Eigen::Array3f(92, 132, 168)});
+  }
 }
 
 std::vector<Room::Thing> Room::furniture() {

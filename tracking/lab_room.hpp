@@ -56,6 +56,7 @@ class Room {
     Eigen::Isometry3d T_tag_world;
   };
   [[nodiscard]] static std::vector<Thing> furniture();
+  void addBoards(const LabOptions& options);
   [[nodiscard]] static LightMap makeLight(const LabOptions& options);
 
   void traceFloor(const Ray& ray, Sample& nearest) const;

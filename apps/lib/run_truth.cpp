@@ -6,6 +6,7 @@
 
 #include "apps/lib/drawable_run.hpp"
 #include "slam/angle.hpp"
+#include "slam/laser_lab.hpp"
 
 namespace slamscope::apps {
 namespace {
@@ -66,6 +67,21 @@ RunTruth truthOfSimulation(const slam::SimulationOptions& options) {
   truth.ids = simulation->truth().ids;
   truth.features = simulation->truth().features;
   truth.pose = [simulation](nanoseconds time) { return simulation->truePose(time); };
+  return truth;
+}
+
+slam::LaserLab laserLabOf(const slam::SimulationOptions& options) {
+  return slam::LaserLab({.loops = options.loops, .seed = options.seed});
+}
+
+RunTruth truthOfLaserLab(const slam::LaserLab& lab) {
+  RunTruth truth;
+  truth.end = lab.drive().timeOf(lab.drive().stepCount());
+  truth.ids = lab.posts().ids;
+  truth.features = lab.posts().features;
+  truth.pose = [drive = lab.drive()](nanoseconds time) { return drive.poseAt(time); };
+  truth.walls = lab.walls();
+  truth.post_radius = lab.postRadius();
   return truth;
 }
 

@@ -2,6 +2,8 @@
 #include "apps/lib/slam_feed.hpp"
 
 #include "apps/lib/drawable_run.hpp"
+#include "apps/lib/run_truth.hpp"
+#include "slam/laser_lab.hpp"
 #include "slam/live_link.hpp"
 #include "slam/replay.hpp"
 
@@ -53,6 +55,23 @@ class SimulatedFeed : public SlamFeed {
   bool ended_ = false;
 };
 
+class LaserLabFeed : public SlamFeed {
+ public:
+  explicit LaserLabFeed(const slam::LaserLab& lab)
+      : run_(lab.record(), lab.runOptions()), header_(run_.header()) {}
+  slam::Subject& subject() override { return run_.filter(); }
+  void advanceTo(nanoseconds time) override {
+    for (auto next = run_.nextTime(); next && *next <= time; next = run_.nextTime()) run_.step();
+  }
+  std::optional<nanoseconds> start() const override { return run_.recording().start(); }
+  bool ended() const override { return !run_.nextTime().has_value(); }
+  const slam::RunHeader& header() const override { return header_; }
+
+ private:
+  slam::RecordingRun run_;
+  slam::RunHeader header_;
+};
+
 class LinkFeed : public SlamFeed {
  public:
   explicit LinkFeed(const std::string& spec) : link_(spec), spec_(spec) {
@@ -96,6 +115,7 @@ class LinkFeed : public SlamFeed {
 std::unique_ptr<SlamFeed> openSlamFeed(const std::string& spec,
                                        const slam::SimulationOptions& simulation) {
   if (spec == "simulate") return std::make_unique<SimulatedFeed>(simulation);
+  if (spec == "laser-lab") return std::make_unique<LaserLabFeed>(laserLabOf(simulation));
   if (spec == "-" || spec.starts_with("tcp://")) return std::make_unique<LinkFeed>(spec);
   return std::make_unique<RecordedFeed>(spec);
 }

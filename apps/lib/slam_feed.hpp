@@ -36,8 +36,8 @@ class SlamFeed {
   [[nodiscard]] virtual std::string status() const { return {}; }
 };
 
-/// `simulate` (as `simulation` says), `-`, `tcp://HOST:PORT`, or a run by its path. Throws
-/// std::runtime_error where it can't be opened.
+/// `simulate` (as `simulation` says), `laser-lab` (loops and seed as it says), `-`,
+/// `tcp://HOST:PORT`, or a run by its path. Throws std::runtime_error where it can't be opened.
 [[nodiscard]] std::unique_ptr<SlamFeed> openSlamFeed(const std::string& spec,
                                                      const slam::SimulationOptions& simulation);
 

@@ -43,8 +43,8 @@ void addSlamFlags(CLI::App& verb, MonitorFlags& flags) {
   const std::string group = "SLAM";
   MonitorOptions& rest = flags.rest;
   verb.add_option("--slam", rest.slam,
-                  "simulate, a run (.jsonl, .jsonl.zst, .npz, .npy, .mat), - (standard input) or "
-                  "tcp://HOST:PORT (listens)")
+                  "simulate, laser-lab (a robot with a laser, no ids), a run (.jsonl, .jsonl.zst, "
+                  ".npz, .npy, .mat), - (standard input) or tcp://HOST:PORT (listens)")
       ->group(group);
   verb.add_option("--slam-rate", rest.slam_rate, "seconds of the run per second of the camera")
       ->check(CLI::PositiveNumber)
@@ -197,6 +197,7 @@ void addMonitorFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--compare", rest.compare,
                   "one PNG or JPEG: start and end of the run beside each other")
       ->group(kOutputGroup);
+  verb.add_option("--until", rest.until, "stop at that time of the run, s")->group(kOutputGroup);
   verb.add_option("--lab-truth", rest.lab_truth, "JSON: the lab's camera, poses and features")
       ->group(kOutputGroup);
 }

@@ -24,6 +24,7 @@ constexpr const char* kSlamHelp =
     "  slamscope slam --csv DIR --sensor-sigma 0.1,0.02 -o run.jsonl\n"
     "  slamscope slam --csv DIR --vehicle ackermann --wheelbase 2.83 --laser 3.78,0.5,0 --score\n"
     "  slamscope slam --victoria-park DIR --score\n"
+    "  slamscope slam --laser-lab 3 --score -o run.jsonl\n"
     "\n"
     "Choosing the noise\n"
     "  --sensor-sigma is what one sighting may be off by, all causes together: the sensor's data "
@@ -72,6 +73,11 @@ void addInput(CLI::App& verb, SlamFlags& flags) {
       ->group(group);
   verb.add_option("--isam", flags.isam, "graph in iSAM's text form: ODOMETRY, LANDMARK")
       ->group(group);
+  verb.add_option("--laser-lab", flags.laser_lab.loops,
+                  "no recording but a simulated robot with a laser among five posts: so many loops")
+      ->check(CLI::Range(1, 10000))
+      ->group(group);
+  verb.add_option("--seed", flags.laser_lab.seed, "of the laser lab's noise")->group(group);
   verb.add_option("--mrpt", flags.mrpt, "range-bearing sightings as rawlog-edit writes them")
       ->group(group);
 }
@@ -125,6 +131,12 @@ void addAssociation(CLI::App& verb, SlamFlags& flags) {
   verb.add_option("--fresh-gate", flags.fresh_gate,
                   "outside of this wider gate of all features a sighting is of a new one")
       ->check(CLI::Range(0.5, 0.9999999999))
+      ->group(group);
+  verb.add_option(
+          "--fresh-density", flags.fresh_density,
+          "features a m^2 that are not in the map yet; a sighting is paired only where that "
+          "is likelier than that it is of one of these (default: next to none)")
+      ->check(CLI::Range(1e-12, 1e6))
       ->group(group);
   verb.add_option("--odds", flags.odds,
                   "a pairing counts only where it is so many times likelier than its rivals")
@@ -180,7 +192,7 @@ Eigen::Vector3d three(const std::vector<double>& values) {
 }
 
 slam::Recording readInput(const SlamFlags& flags) {
-  int inputs = 0;
+  int inputs = flags.laser_lab.loops > 0 ? 1 : 0;
   for (const std::string* input :
        {&flags.mrclam, &flags.csv, &flags.victoria_park, &flags.isam, &flags.mrpt}) {
     inputs += input->empty() ? 0 : 1;
@@ -188,12 +200,13 @@ slam::Recording readInput(const SlamFlags& flags) {
   if (inputs != 1) {
     throw std::runtime_error(
         "say what to read, one of: --mrclam DIR --robot N, --csv DIR, --victoria-park DIR, "
-        "--isam FILE, --mrpt FILE");
+        "--isam FILE, --mrpt FILE, --laser-lab LOOPS");
   }
   if (!flags.csv.empty()) return slam::readCsv(flags.csv);
   if (!flags.victoria_park.empty()) return slam::readVictoriaPark(flags.victoria_park);
   if (!flags.isam.empty()) return slam::readIsamGraph(flags.isam);
   if (!flags.mrpt.empty()) return slam::readMrptSightings(flags.mrpt);
+  if (flags.laser_lab.loops > 0) return slam::LaserLab(flags.laser_lab).record();
   if (flags.robot < 1) throw std::runtime_error("--mrclam needs --robot N (1 to 5)");
   return slam::readMrclam(flags.mrclam, flags.robot);
 }
@@ -239,8 +252,11 @@ slam::Recording readRecording(const SlamFlags& flags) {
 
 slam::RecordingRunOptions runOptions(const SlamFlags& flags, const slam::Recording& recording) {
   slam::RecordingRunOptions options =
-      slam::usualOptions(recording, associationOf(flags, recording));
+      flags.laser_lab.loops > 0 ? slam::LaserLab(flags.laser_lab).runOptions()
+                                : slam::usualOptions(recording, associationOf(flags, recording));
+  options.association = associationOf(flags, recording);
   options.gates.fresh = flags.fresh_gate.value_or(options.gates.fresh);
+  options.gates.fresh_density = flags.fresh_density.value_or(options.gates.fresh_density);
   options.gates.odds = flags.odds.value_or(options.gates.odds);
   slam::FeatureLifeOptions& life = options.life;
   life.confirm_after = flags.confirm.value_or(life.confirm_after);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/laser_lab.hpp"
 #include "slam/run_recording.hpp"
 
 namespace slamscope::apps {
@@ -19,6 +20,7 @@ struct SlamFlags {
   std::string victoria_park;
   std::string isam;
   std::string mrpt;
+  slam::LaserLabOptions laser_lab{.loops = 0};  ///< no loops: none
 
   std::string vehicle;  ///< "ackermann"; empty: what the odometry says
   double wheelbase = 0.0;
@@ -36,6 +38,7 @@ struct SlamFlags {
   std::vector<double> initial_sigma;
   std::optional<double> gate;  ///< 0: none
   std::optional<double> fresh_gate;
+  std::optional<double> fresh_density;  ///< 1/m²
   std::optional<double> odds;
   std::optional<int> confirm;
   std::optional<int> drop;

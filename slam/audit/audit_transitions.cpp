@@ -121,8 +121,7 @@ void Audit::State::judgeUpdate(const Transition& t) {
   noteInnovation(estimate, s);
   const bool given = !s.observations.empty() && !s.observations.front().R.isZero(0.0);
   if (header.R || given) {
-    const Eigen::Matrix2d R = header.R ? *header.R : s.observations.front().R;
-    note(Law::sensor_noise, checkSensorNoise(t, anatomy, estimate, header.sensor, R), s);
+    note(Law::sensor_noise, checkSensorNoise(t, anatomy, estimate, header), s);
   }
   note(Law::jacobian_given, checkJacobianGiven(t, points, header.sensor), s);
 }

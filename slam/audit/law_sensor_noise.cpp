@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "slam/correlation.hpp"
 #include "slam/models.hpp"
@@ -42,11 +43,19 @@ std::vector<std::string_view> patternsOf(const Eigen::Matrix2d& R, const Eigen::
   return patterns;
 }
 
+/// R of the observation of that feature, where the record has it.
+std::optional<Eigen::Matrix2d> noiseGivenFor(FeatureId id, const Snapshot& snapshot) {
+  for (const ObservationRecord& o : snapshot.observations) {
+    if (o.id == id && !o.R.isZero(0.0)) return o.R;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Outcome checkSensorNoise(const Transition& t, const UpdateAnatomy& anatomy,
-                         const InnovationEstimate& estimate, Sensor sensor,
-                         const Eigen::Matrix2d& R) {
+                         const InnovationEstimate& estimate, const RunHeader& header) {
+  const Sensor sensor = header.sensor;
   if (sensor == Sensor::unknown) return Outcome::notCheckable("the sensor is not declared");
   if (!anatomy.fit.whole && !anatomy.heading_besides) return {};
   // Frozen linearisation: A would have to be taken at the heading of then.
@@ -59,6 +68,10 @@ Outcome checkSensorNoise(const Transition& t, const UpdateAnatomy& anatomy,
     if (std::count(seen.begin(), seen.end(), f.id) > 1) continue;
     const double tolerance = (anatomy.heading_besides ? 0.05 : 1e-4) + 4.0 * f.R_error;
     if (!f.R_map.allFinite() || tolerance > 0.3) continue;
+    const std::optional<Eigen::Matrix2d> declared =
+        header.R ? header.R : noiseGivenFor(f.id, *t.after);
+    if (!declared) continue;
+    const Eigen::Matrix2d& R = *declared;
     Eigen::Vector3d pose = t.before->pose;
     const Eigen::Vector2d l = pose.head<2>() + anatomy.deltas[k];
     Eigen::Matrix2d A;

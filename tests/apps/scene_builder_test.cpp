@@ -181,6 +181,24 @@ TEST(SceneBuilder, FlaggedIsMagentaInEveryModeAndNothingElseIs) {
   EXPECT_TRUE(sceneOf(shown, {.mode = slam::PairMode::alarms}).ellipsoids.empty());
 }
 
+TEST(SceneBuilder, TentativeFeaturesArePaleWithAQuestionMarkAndTheirPairsFaint) {
+  Shown shown = endOfRun();
+  shown.snapshot.tentative = {shown.snapshot.ids[3]};
+  const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::all});
+  const auto count = [](const auto& glyphs, const engine::Rgba& hue) {
+    return std::count_if(glyphs.begin(), glyphs.end(), [&](const auto& glyph) {
+      return glyph.colour.r == hue.r && glyph.colour.g == hue.g && glyph.colour.a == hue.a;
+    });
+  };
+  EXPECT_EQ(count(scene.cones, colour::kTentative), 1);
+  EXPECT_EQ(count(scene.cones, colour::kFeature), 14);
+  EXPECT_EQ(count(scene.ellipsoids, colour::kTentativeEllipsoid), 14);
+  EXPECT_EQ(count(scene.lines, colour::kTentativePair), 14);
+  EXPECT_EQ(ellipsoidCount(scene), 105U);
+  EXPECT_EQ(scene.labels[3].text, std::to_string(shown.snapshot.ids[3]) + "?");
+  EXPECT_EQ(scene.labels[4].text, std::to_string(shown.snapshot.ids[4]));
+}
+
 TEST(SceneBuilder, AxesAreThoseOfTheRelativeCovariance) {
   Eigen::Matrix2d P_d;
   P_d << 0.04, 0.012, 0.012, 0.01;

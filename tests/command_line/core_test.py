@@ -163,6 +163,14 @@ class Csv(program.InAFolder):
         self.assertEqual(self.load("s.json")["confirmed"], 1)
         self.assertIn('"tentative": [1]', (self.folder / "r.jsonl").read_text())
 
+    def test_the_laser_lab_is_mapped_and_audited(self):
+        status, _, errors = self.run_here("slam", "--laser-lab", 1, "--record", "all", "--score-json", "s.json",
+                                          "-o", "r.jsonl")
+        self.assertEqual(status, 0, errors)
+        self.assertEqual(self.load("s.json")["features"], 5)
+        self.assertEqual(self.run_here("audit", "r.jsonl", "--fail-on", "code")[0], 0)
+        self.refused("slam", "--laser-lab", 1, "--csv", "d", saying="one of")
+
     def test_time_that_goes_back_names_file_and_line(self):
         self.data(odometry="0,1,0\n2,1,0\n1,1,0\n")
         self.refused("slam", "--csv", "d", saying=["odometry.csv:4"])

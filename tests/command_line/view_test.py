@@ -143,6 +143,22 @@ class Films(program.InAFolder):
         self.assertIsNone(last["alarms"])
         self.assertGreater(last["drawn"]["ellipsoids"], 0)
 
+    def test_the_laser_lab_shows_a_spurious_feature_for_a_while(self):
+        drawn = {}
+        for until, rate in ((2.4, 2), (9, 8), (16, 8)):  # the first 30 frames are for registration
+            status, _, errors = self.run_here("monitor", "--slam", "laser-lab", "--loops", 2, "--slam-rate", rate,
+                                              "--until", until, "--report", "r.json")
+            self.assertEqual(status, 0, errors)
+            last = self.load("r.json")["frames"][-1]
+            self.assertEqual(last["alarms"]["flagged"], [])
+            drawn[until] = last["drawn"]["features"]
+        self.assertEqual(drawn, {2.4: 3, 9: 6, 16: 5})
+
+    def test_a_picture_of_the_end_alone_is_made_without_what_lies_between(self):
+        status, _, errors = self.run_here("monitor", "--slam", "laser-lab", "--picture", "p.png")
+        self.assertEqual(status, 0, errors)
+        self.assertIn(" 32 frames", errors)
+
     def test_numbered_pictures_and_a_picture_of_the_last(self):
         status, _, errors = self.run_here("monitor", "--frames", 4, "--output", "o-%03d.png",
                                           "--picture", "last.png", "--size", "640x360")

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
@@ -99,23 +101,23 @@ TEST(Association, RivalsOfCloseOddsAreLeftUndecided) {
   }
 }
 
+constexpr double kFreshDensity = 0.02;  // 1/m²
+
 /// Every set of pairings, by brute force with dense matrices.
 struct BruteForce {
   const EkfState& state;
   std::vector<ExpectedReading> expected = expectedReadings(state, kSensor);
   const std::vector<Observation>& readings;
-  std::size_t most = 0;
-  double least = 0.0;
+  double most = 0.0;        ///< gain
+  std::vector<int> best{};  ///< of each reading: feature, or −1
 
   void search(std::vector<int> features) {
-    const double squared = distance(features);
-    std::size_t pairs = 0;
-    for (const int f : features) pairs += f >= 0 ? 1 : 0;
+    const auto [squared, gain, pairs] = judge(features);
     if (pairs > 0 && !(squared <= chiSquareQuantile(0.01, 2.0 * static_cast<double>(pairs))))
       return;
-    if (pairs > most || (pairs == most && squared < least)) {
-      most = pairs;
-      least = squared;
+    if (gain > most) {
+      most = gain;
+      best = features;
     }
     if (features.size() == readings.size()) return;
     features.push_back(-1);
@@ -130,12 +132,19 @@ struct BruteForce {
   bool single(int reading, int feature) const {
     std::vector<int> features(static_cast<std::size_t>(reading) + 1, -1);
     features.back() = feature;
-    return distance(features) <= chiSquareQuantile(0.01, 2.0);
+    return judge(features).squared <= chiSquareQuantile(0.01, 2.0);
   }
 
-  double distance(const std::vector<int>& features) const {
+  struct Judgement {
+    double squared = 0.0;
+    double gain = 0.0;  ///< ln N(ν; 0, S) − Σ ln (density × range)
+    int pairs = 0;
+  };
+
+  Judgement judge(const std::vector<int>& features) const {
     std::vector<Eigen::MatrixXd> rows;
     Eigen::VectorXd innovation(0);
+    Judgement result;
     for (std::size_t k = 0; k < features.size(); ++k) {
       if (features[k] < 0) continue;
       const ExpectedReading& e = expected[static_cast<std::size_t>(features[k])];
@@ -145,8 +154,9 @@ struct BruteForce {
       rows.push_back(H);
       innovation.conservativeResize(innovation.size() + 2);
       innovation.tail<2>() = observationDifference(kSensor, readings[k].z, e.z);
+      result.gain -= std::log(2.0 * std::numbers::pi * kFreshDensity * readings[k].z[0]);
     }
-    if (rows.empty()) return 0.0;
+    if (rows.empty()) return result;
     Eigen::MatrixXd H(innovation.size(), state.size());
     Eigen::MatrixXd R = Eigen::MatrixXd::Zero(innovation.size(), innovation.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -156,7 +166,10 @@ struct BruteForce {
     }
     const Eigen::MatrixXd P = state.P.selfadjointView<Eigen::Lower>();
     const Eigen::MatrixXd S = H * P * H.transpose() + R;
-    return innovation.dot(S.llt().solve(innovation));
+    result.pairs = static_cast<int>(rows.size());
+    result.squared = innovation.dot(S.llt().solve(innovation));
+    result.gain -= 0.5 * (result.squared + std::log(S.determinant()));
+    return result;
   }
 };
 
@@ -173,11 +186,30 @@ TEST(Association, JointAgreesWithBruteForce) {
     readings.push_back({0, {3.0, random.uniform(-0.2, 0.2)}, kSightingNoise});  // spurious
     BruteForce all{.state = map.filter.state(), .readings = readings};
     all.search({});
-    const Matches found = match(map, Association::joint, readings);
-    const auto pairs = std::count_if(found.feature.begin(), found.feature.end(),
-                                     [](int feature) { return feature >= 0; });
-    EXPECT_EQ(static_cast<std::size_t>(pairs), all.most);
-    EXPECT_NEAR(found.squared_distance, all.least, 1e-9 * (1.0 + all.least));
+    const Matches found =
+        match(map, Association::joint, readings, {.fresh_density = kFreshDensity});
+    all.best.resize(readings.size(), -1);
+    for (std::size_t k = 0; k < readings.size(); ++k) {
+      EXPECT_EQ(std::max(found.feature[k], -1), all.best[k]) << trial;
+    }
+    EXPECT_NEAR(found.gain, all.most, 1e-9 * (1.0 + all.most));
+  }
+}
+
+/// After a long blind drive any reading is inside of the gate of the only feature that is known.
+TEST(Association, WhatIsLikelierNewIsNotPaired) {
+  constexpr double kDense = 0.5;  // 1/m²
+  const Mapped map({{3, 0}}, 0.5);
+  for (const Association association : {Association::nearest, Association::joint}) {
+    const auto feature = [&](double angle, double density) {
+      return match(map, association,
+                   readingsFrom({0.01, 0, 0}, {{3 * std::cos(angle), 3 * std::sin(angle)}}),
+                   {.fresh_density = density})
+          .feature[0];
+    };
+    EXPECT_EQ(feature(1.2, 1e-9), 0) << "so far aside is within three sigma";
+    EXPECT_EQ(feature(1.2, kDense), Matches::kFresh);
+    EXPECT_EQ(feature(0.1, kDense), 0) << "and this is where it stands";
   }
 }
 
@@ -198,6 +230,8 @@ TEST(Association, RefusesGatesThatAreNone) {
   EXPECT_THROW(Associator(kSensor, Association::joint, {.pair = 0.999, .fresh = 0.99}),
                std::invalid_argument);
   EXPECT_THROW(Associator(kSensor, Association::joint, {.odds = 0.5}), std::invalid_argument);
+  EXPECT_THROW(Associator(kSensor, Association::joint, {.fresh_density = 0.0}),
+               std::invalid_argument);
 }
 
 /// A robot that stands still and looks at some places, time after time.

@@ -71,11 +71,11 @@ TEST(RightSolve, UndoesTheProductWithLTransposed) {
       Eigen::MatrixXd Y(size, m);
       for (double& value : L.reshaped()) value += random.normal();
       for (double& value : Y.reshaped()) value = random.normal();
-      Eigen::MatrixXd solved = Y * L.triangularView<Eigen::Lower>().transpose();
-      solveFromTheRight(L, solved);  // what is above L's diagonal must not matter
+      Eigen::MatrixXd solved;
+      solveFromTheRight(L, Y * L.triangularView<Eigen::Lower>().transpose(),
+                        solved);  // what is above L's diagonal must not matter
       EXPECT_LT((solved - Y).cwiseAbs().maxCoeff(), 1e-12);
-      solved = Y * L.triangularView<Eigen::Lower>();
-      solveFromTheRight(L, solved);
+      solveFromTheRight(L, Y * L.triangularView<Eigen::Lower>(), solved);
       EXPECT_GT((solved - Y).cwiseAbs().maxCoeff(), 1e-3) << "must fail: not transposed";
     }
   }

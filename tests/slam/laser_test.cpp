@@ -286,56 +286,5 @@ TEST(RecordingRun, SaysThatAnIdIsUsedForAnotherPlace) {
   EXPECT_EQ(remarks(6.0)[0].substr(0, 35), "feature 4: 21 sightings in a row we");
 }
 
-/// The paper's real experiment (section 4): five posts within 3 m × 3 m, walls at the side, a robot
-/// with a laser that drives a loop of 1 m × 1 m; here with a thing that is there for a moment only.
-TEST(RecordingRun, ASpuriousFeatureOfTheLaserComesAndGoes) {
-  const std::vector<Post> posts{{{1.3, 0.6}, 0.03},
-                                {{1.0, 1.6}, 0.03},
-                                {{-0.9, 1.3}, 0.03},
-                                {{-1.1, -0.2}, 0.03},
-                                {{0.4, -0.7}, 0.03}};
-  Recording recording;
-  recording.separation = 0.25;
-  RandomSource random(4);
-  Eigen::Vector3d pose(0, 0, 0);
-  const Eigen::Vector2d velocity(0.25, 0.5);
-  for (int k = 0; k <= 250; ++k) {
-    std::vector<Post> world = posts;
-    if (k >= 20 && k < 30) world.push_back({{1.6, -0.4}, 0.03});
-    const Eigen::Vector2d noise(0.02 * random.normal(), 0.05 * random.normal());
-    recording.odometry.push_back(
-        {k * 100ms, {velocity[0] + noise[0], 0.0, velocity[1] + noise[1]}});
-    LaserScan scan = sweep([&](double) { return pose; }, world, 2.6, 0.01, random);
-    scan.time = k * 100ms;
-    recording.scans.push_back(std::move(scan));
-    recording.truth_path.push_back({k * 100ms, pose});
-    pose = movePose(pose, arcIncrement(velocity, 0.1));
-  }
-  recording.truth_in_map = true;
-  RecordingRunOptions options;
-  options.association = Association::joint;
-  options.odometry_sigma = {0.02, 0.005, 0.05};
-  options.life.separation = 0.25;
-  options.life.confirm_after = 15;
-  options.laser.clearance = 0.4;
-  options.laser.shape_sigma = 0.02;
-  options.laser.range_sigma = 0.01;
-  RecordingRun run(recording, options);
-  const Scorer scorer(run.filter());
-  std::size_t most_tentative = 0;
-  std::size_t tentative = 0;
-  const auto subscription = run.filter().observe({Event::step}, [&](const SnapshotPtr& s) {
-    tentative = s->tentative.size();
-    if (s->time > 2500ms && s->time < 3s) most_tentative = std::max(most_tentative, tentative);
-  });
-  while (run.step()) {
-  }
-  EXPECT_GE(most_tentative, 1U);
-  EXPECT_EQ(tentative, 0U);
-  EXPECT_EQ(run.filter().state().featureCount(), 5);
-  EXPECT_LT(*scorer.score().path_rms, 0.05);
-  EXPECT_GE(run.mapCounters()->dropped, 1U);
-}
-
 }  // namespace
 }  // namespace slamscope::slam

@@ -191,6 +191,12 @@ LabPlacement placeInLab(tracking::LabOptions& lab, const MonitorOptions& options
   for (std::size_t k = 0; k < truth->ids.size(); ++k) {
     lab.posts.push_back({truth->ids[k], scale * truth->features[k]});
   }
+  // What a laser sees stands there too; the room's own things, which it was not told of, do not.
+  for (const slam::LaserWall& wall : truth->walls) {
+    lab.boards.push_back({scale * wall.from, scale * wall.to, wall.glossy});
+  }
+  if (!truth->walls.empty()) lab.furniture = false;
+  if (truth->post_radius > 0.0) lab.post_radius = scale * truth->post_radius;
   lab.start = truth->start;
   lab.robot_pose_map = [truth = *truth, scale, rate = options.slam_rate](nanoseconds time) {
     const double since = rate * static_cast<double>((time - truth.start).count());

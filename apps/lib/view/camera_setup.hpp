@@ -32,8 +32,8 @@ struct LabPlacement {
   double map_scale = 1.0;
   std::vector<std::string> notes;  ///< one line each, for people
 };
-/// Fills in the lab's posts, the robot's motion, the start and T_world_map. Without truth: the
-/// floor alone.
+/// Fills in the lab's posts and walls, the robot's motion, the start and T_world_map. Without
+/// truth: the floor alone.
 [[nodiscard]] LabPlacement placeInLab(tracking::LabOptions& lab, const MonitorOptions& options,
                                       const std::optional<RunTruth>& truth);
 

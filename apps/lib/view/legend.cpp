@@ -83,6 +83,7 @@ std::vector<Row> rowsOf(const Legend& legend) {
   const bool only_flagged = legend.mode == slam::PairMode::alarms;
   std::vector<Row> rows{{colour::kRobot, "robot and its path"}};
   if (!only_flagged) rows.emplace_back(colour::kFeature, "features");
+  if (legend.tentative) rows.emplace_back(colour::kTentative, "tentative: not seen often enough");
   if (legend.covariance_rings) {
     rows.push_back({colour::kFeature, format("ring: %gσ of the position", legend.axis.k)});
   }

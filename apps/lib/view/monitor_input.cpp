@@ -46,6 +46,7 @@ Monitor::State::State(const MonitorOptions& request)
 }
 
 bool Monitor::State::runIsOver() const {
+  if (options.until && shown() && seconds(layer.runTime()) >= *options.until) return true;
   // A lab has no end of its own; a camera or a film is shown to its end.
   return setup.lab && layer.feed().ended() && (registered() || layer.newest() == nullptr);
 }

@@ -48,6 +48,7 @@ struct MonitorOptions {
 
   int width = 0, height = 0;      ///< of the drawn picture; 0: the camera's
   std::uint64_t frames = 0;       ///< to draw; 0: to the end
+  std::optional<double> until;    ///< s, time of the run at which to stop; absent: to the end
   std::filesystem::path output;   ///< NAME.mp4, NAME-%05d.png
   std::filesystem::path picture;  ///< PNG or JPEG: the last frame
   std::filesystem::path compare;  ///< PNG or JPEG: the run's start and end beside each other

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the monitor hands on: drawn pictures and the report.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,18 +27,19 @@ void Monitor::State::hand() {
   if (!options.report.empty()) report.add(frameReport());
   const bool something = ellipsoidCount(picture.scene, offscreen.lastStats().pairs) > 0 ||
                          (choices.mode == slam::PairMode::alarms && shown());
-  if (!options.compare.empty() && !start_picture && something) compare();
+  if (!options.compare.empty() && !start_picture && something) start_picture = pixels.front();
+  if (shown() && (options.compare.empty() || start_picture)) skipToTheEnd();
 }
 
-void Monitor::State::compare() {
-  start_picture = pixels.front();
-  // Nobody looks at what lies between: the lab can go straight to the end.
-  const bool only_compare = !output && options.report.empty() && !options.window;
-  if (!only_compare || !setup.lab || !truth) return;
-  const double left = seconds(truth->end - layer.runTime()) / options.slam_rate;
+/// Where only pictures of the end are wanted, the lab can go straight there.
+void Monitor::State::skipToTheEnd() {
+  const bool looked_at = output || !options.report.empty() || options.window || options.frames > 0;
+  if (looked_at || skipped || !setup.lab || !truth) return;
+  skipped = true;
+  const double end = std::min(seconds(truth->end), options.until.value_or(seconds(truth->end)));
+  const double left = (end - seconds(layer.runTime())) / options.slam_rate;
   const double count = std::floor(left * setup.lab->fps) - 1.0;
-  if (count < 1.0) return;
-  frames.skip(static_cast<std::uint64_t>(count));
+  if (count >= 1.0) frames.skip(static_cast<std::uint64_t>(count));
 }
 
 FrameReport Monitor::State::frameReport() const {

@@ -34,7 +34,7 @@ struct Monitor::State {
 
   void draw();
   void hand();
-  void compare();
+  void skipToTheEnd();
   [[nodiscard]] FrameReport frameReport() const;
   void finish(Viewer::Ending ending);
 
@@ -63,6 +63,7 @@ struct Monitor::State {
   std::uint64_t frame_count = 0;
   std::uint64_t drawn_frame = 0;
   bool ever_registered = false;
+  bool skipped = false;        ///< to the end
   double metres_per_px = 0.0;  ///< at the map's origin, when it was first registered
   Picture picture;
   std::vector<engine::Image> pixels;

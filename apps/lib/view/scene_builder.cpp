@@ -53,7 +53,9 @@ class SceneBuilder {
     for (int k = 0; k < snapshot_.featureCount(); ++k) {
       const AlarmMarks::Mark* mark = alarms_.feature(id(k));
       if (style_.mode == slam::PairMode::alarms && mark == nullptr) continue;
-      const engine::Rgba& hue = mark != nullptr ? colour::kFlagged : colour::kFeature;
+      const engine::Rgba& hue = mark != nullptr  ? colour::kFlagged
+                                : isTentative(k) ? colour::kTentative
+                                                 : colour::kFeature;
       const Eigen::Vector2d& feature = snapshot_.features[static_cast<std::size_t>(k)];
       scene_.cones.push_back(cone(onFloor(feature), hue));
       if (style_.covariance_rings || (mark != nullptr && mark->last_good)) {
@@ -64,7 +66,7 @@ class SceneBuilder {
         addRing(feature, *mark->last_good, colour::kHaloRing, 4.0);
       if (!style_.labels) continue;
       scene_.labels.push_back({.anchor = onFloor(feature),
-                               .text = std::to_string(id(k)),
+                               .text = std::to_string(id(k)) + (isTentative(k) ? "?" : ""),
                                .colour = {1.0F, 1.0F, 1.0F, 1.0F}});
     }
   }
@@ -73,7 +75,10 @@ class SceneBuilder {
     const Eigen::Vector3d from = featureOnFloor(pair.i);
     const Eigen::Vector3d to = featureOnFloor(pair.j);
     const bool flagged = alarms_.pair(id(pair.i), id(pair.j)) != nullptr;
-    addLine(from, to, flagged ? colour::kFlaggedPair : colour::kPair);
+    addLine(from, to,
+            flagged            ? colour::kFlaggedPair
+            : isDoubtful(pair) ? colour::kTentativePair
+                               : colour::kPair);
     addEllipsoid(pair, relativeEllipsoid(pair.P_d, 0.5 * (from + to), style_));
   }
 
@@ -164,6 +169,10 @@ class SceneBuilder {
   [[nodiscard]] slam::FeatureId id(int index) const {
     return snapshot_.ids[static_cast<std::size_t>(index)];
   }
+  [[nodiscard]] bool isTentative(int index) const { return snapshot_.isTentative(id(index)); }
+  [[nodiscard]] bool isDoubtful(const slam::FeaturePair& pair) const {
+    return isTentative(pair.i) || isTentative(pair.j);
+  }
   [[nodiscard]] Eigen::Vector3d onFloor(const Eigen::Vector2d& p_map) const {
     return {style_.map_scale * p_map.x(), style_.map_scale * p_map.y(), 0.0};
   }
@@ -181,6 +190,7 @@ class SceneBuilder {
 
   /// The pair's ellipsoid; magenta and in its halo where the pair is flagged.
   void addEllipsoid(const slam::FeaturePair& pair, engine::Ellipsoid ellipsoid) {
+    if (isDoubtful(pair)) ellipsoid.colour = colour::kTentativeEllipsoid;
     if (const AlarmMarks::Mark* mark = alarms_.pair(id(pair.i), id(pair.j))) {
       ellipsoid.colour = colour::kFlaggedEllipsoid;
       if (mark->last_good) {

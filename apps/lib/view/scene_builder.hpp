@@ -44,8 +44,12 @@ namespace colour {
 inline constexpr engine::Rgba kRobot{0.12F, 0.80F, 0.22F, 1.0F};
 inline constexpr engine::Rgba kHeading{1.00F, 0.84F, 0.05F, 1.0F};
 inline constexpr engine::Rgba kFeature{0.05F, 0.85F, 0.95F, 1.0F};
+inline constexpr engine::Rgba kTentative{0.72F, 0.80F, 0.82F, 0.55F};
 inline constexpr engine::Rgba kPair{1.00F, 0.90F, 0.10F, 0.60F};
 inline constexpr engine::Rgba kEllipsoid{0.90F, 0.12F, 0.10F, 1.0F};
+// Of pairs with a tentative feature.
+inline constexpr engine::Rgba kTentativePair{1.00F, 0.90F, 0.10F, 0.25F};
+inline constexpr engine::Rgba kTentativeEllipsoid{0.90F, 0.12F, 0.10F, 0.35F};
 // What the audit flags (spec visualisation.md, "Flags").
 inline constexpr engine::Rgba kFlagged{0.96F, 0.05F, 0.86F, 1.0F};
 inline constexpr engine::Rgba kFlaggedPair{0.96F, 0.05F, 0.86F, 0.60F};
@@ -75,6 +79,8 @@ struct Belief {
 /// standing on their tips, heading arrow, path, and the relative covariances that the mode selects
 /// as ellipsoids in the middle of their pair's line. Those of the modes all, between-clusters and
 /// selected are made by the device (engine::PairGlyphs).
+///
+/// Tentative features are pale, with a question mark after their id, their pairs faint.
 ///
 /// What the audit flags is magenta in every mode, in a faint halo of its last good size; mode
 /// alarms shows no other features and pairs.

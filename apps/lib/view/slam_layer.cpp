@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "apps/lib/view/alarm_lines.hpp"
+#include "slam/laser_lab.hpp"
 
 namespace slamscope::apps {
 
@@ -27,6 +28,7 @@ std::optional<RunTruth> truthFor(const MonitorOptions& options) {
     return std::nullopt;
   }
   if (options.slam == "simulate") return truthOfSimulation(options.simulation);
+  if (options.slam == "laser-lab") return truthOfLaserLab(laserLabOf(options.simulation));
   return truthOfRun(options.slam);
 }
 
@@ -127,11 +129,14 @@ std::string SlamLayer::runLine(const engine::Scene& scene) const {
   const slam::Snapshot& snapshot = *slam_.newest();
   const double age =
       feed_->live() ? seconds(slam_.sinceArrival()) : seconds(run_time_ - snapshot.time);
+  const std::string doubted = snapshot.tentative.empty()
+                                  ? std::string()
+                                  : ", " + std::to_string(snapshot.tentative.size()) + " tentative";
   std::snprintf(text, sizeof text,
-                "t %.2f s · record %llu, %.2f s old · %d features · %s · mode %s",
+                "t %.2f s · record %llu, %.2f s old · %d features%s · %s · mode %s",
                 seconds(snapshot.time), static_cast<unsigned long long>(snapshot.sequence),
-                std::max(age, 0.0), snapshot.featureCount(), pairsText(scene).c_str(),
-                std::string(slam::pairModeName(choices_.mode)).c_str());
+                std::max(age, 0.0), snapshot.featureCount(), doubted.c_str(),
+                pairsText(scene).c_str(), std::string(slam::pairModeName(choices_.mode)).c_str());
   return text;
 }
 
@@ -162,6 +167,7 @@ Legend SlamLayer::legend(const Place& place) const {
           .axis = choices_.axis,
           .map_scale = place.map_scale,
           .covariance_rings = choices_.covariance_rings,
+          .tentative = slam_.newest() && !slam_.newest()->tentative.empty(),
           .clusters = clustered() ? clusters.count() : 0,
           .cluster_cut = clusters.cut,
           .automatic_cut = clusters.automatic,
