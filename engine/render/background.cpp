@@ -26,11 +26,7 @@ BackgroundPass::Eye::Eye(const gpu::Core& core)
 BackgroundPass::BackgroundPass(const PassSetup& setup)
     : set_(setup.core,
            {sampled(kPicture), sampled(kPicture + 1), sampled(kMap), sampled(kMap + 1)}),
-      pipeline_(setup.core, {.vertex = shaderCode("background_vert"),
-                             .fragment = shaderCode("background_frag"),
-                             .sets = {setup.frame_layout, set_.layout()},
-                             .view_mask = setup.view_mask,
-                             .blend = false}),
+      setup_(setup),
       sampler_(setup.core.device(), gpu::bilinearWithBlackBorder()),
       eyes_{Eye(setup.core), Eye(setup.core)} {
   bind(0);
@@ -43,11 +39,11 @@ void BackgroundPass::bind(std::uint32_t eye) const {
 }
 
 void BackgroundPass::update(const ViewSet& views) {
-  any_picture_ = false;
+  kinds_ = 0;
   for (std::uint32_t i = 0; i < views.views().size(); ++i) {
     const Background& background = views.views()[i].background;
     if (!background.image) continue;
-    any_picture_ = true;
+    kinds_ |= views.data().views[i].background;  // 1: pixel by pixel, 2: through the map
     Eye& eye = eyes_[i];
     const auto extent = [](const auto& picture) {
       return vk::Extent2D(static_cast<std::uint32_t>(picture.width),
@@ -62,6 +58,16 @@ void BackgroundPass::update(const ViewSet& views) {
     }
     if (renewed) bind(i);
   }
+  std::optional<gpu::Pipeline>& pipeline = pipelines_[kinds_];
+  if (kinds_ == 0 || pipeline) return;
+  pipeline.emplace(setup_.core,
+                   gpu::PipelineInfo{.vertex = shaderCode("background_vert"),
+                                     .fragment = shaderCode("background_frag"),
+                                     .sets = {setup_.frame_layout, set_.layout()},
+                                     .view_mask = setup_.view_mask,
+                                     .blend = false,
+                                     .constants = {setup_.view_mask == 1 ? VK_FALSE : VK_TRUE,
+                                                   kinds_ & 1U, kinds_ >> 1U}});
 }
 
 void BackgroundPass::recordUpload(const vk::raii::CommandBuffer& commands) {
@@ -72,7 +78,7 @@ void BackgroundPass::recordUpload(const vk::raii::CommandBuffer& commands) {
 }
 
 void BackgroundPass::record(const FrameContext& context) const {
-  context.draw("background", pipeline_, set_.handle(), 4, any_picture_ ? 1 : 0);
+  if (kinds_ > 0) context.draw("background", *pipelines_[kinds_], set_.handle(), 4, 1);
 }
 
 }  // namespace slamscope::engine

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "engine/gpu/upload.hpp"
 #include "engine/render/frame_context.hpp"
@@ -32,10 +33,11 @@ class BackgroundPass {
   void bind(std::uint32_t eye) const;
 
   gpu::DescriptorSet set_;
-  gpu::Pipeline pipeline_;
+  PassSetup setup_;
+  std::array<std::optional<gpu::Pipeline>, 4> pipelines_;  ///< by kinds_, made when first needed
   vk::raii::Sampler sampler_;
   std::array<Eye, 2> eyes_;
-  bool any_picture_ = false;
+  std::uint32_t kinds_ = 0;  ///< of the views' pictures: 1 for some copied, 2 for some mapped
 };
 
 }  // namespace slamscope::engine
