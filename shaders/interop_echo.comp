@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interop/frame.h"
 #include "interop/glyphs.h"
+#include "interop/pairs.h"
 
 layout(local_size_x = 1) in;
 
@@ -17,6 +18,8 @@ struct Everything {
   SegmentGlyph segment;
   RectGlyph rect;
   LetterGlyph letter;
+  PairsData pairs;
+  PairsCounts counts;
 };
 
 // Two of them: the second is only found where sizes agree as well.
@@ -52,5 +55,12 @@ void main() {
     const LetterGlyph l = values[i].letter;
     echo(l.anchor), echo(l.offset_px), echo(l.min_px), echo(l.max_px), echo(l.uv), echo(l.colour);
     echo(l.anchored), echo(l.halo);
+    const PairsData p = values[i].pairs;
+    echo(p.points), echo(p.pairs), echo(p.views), echo(p.law), echo(p.gain), echo(p.unit);
+    echo(p.origin), echo(p.ex), echo(p.ey), echo(p.ez), echo(p.scale), echo(p.colour);
+    echo(p.conditions), echo(p.least_area), echo(p.most), echo(p.run);
+    const PairsCounts n = values[i].counts;
+    echo(n.chosen), echo(n.drawn), echo(n.not_finite), echo(n.large), echo(n.vertices);
+    echo(n.instances), echo(n.first_vertex), echo(n.first_instance), echo(n.least_key), echo(n.rank);
   }
 }

@@ -15,7 +15,7 @@ enum class PairWay {
   quads,
   /// By a compute shader: the nearest of all glyphs at each pixel by 64-bit atomics, then each
   /// pixel
-  /// shaded once. Quads on a device without such atomics.
+  /// shaded once. Quads on a device without such atomics, or with too small buffers.
   splats,
 };
 

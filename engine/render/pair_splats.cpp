@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/pair_splats.hpp"
 
+#include <algorithm>
+
 #include "engine/gpu/barrier.hpp"
 #include "engine/render/shader_code.hpp"
 
@@ -31,6 +33,17 @@ gpu::PipelineInfo resolveInfo(const PassSetup& setup, const PairData& data, bool
 }
 
 }  // namespace
+
+bool PairSplats::possible(const gpu::Core& core, const PairData& data, vk::Extent2D extent) {
+  const std::size_t views = data.data().views;
+  const std::size_t pixels = std::size_t{extent.width} * extent.height * views;
+  const std::size_t faces = data.pairCount() * views;
+  const std::size_t bytes = std::max(pixels * kBytesOfAPixel, faces * kBytesOfAFace);
+  const std::size_t texels =
+      std::max(4 * pixels, 3 * faces);  // words of the one, vec4 of the other
+  return core.wideAtomics() && bytes <= core.limits().maxStorageBufferRange &&
+         texels <= core.limits().maxTexelBufferElements;
+}
 
 PairSplats::PairSplats(const PassSetup& setup, const PairData& data)
     : visibility_(setup.core, 0,

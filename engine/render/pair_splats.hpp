@@ -18,6 +18,11 @@ class PairSplats {
  public:
   PairSplats(const PassSetup& setup, const PairData& data);
 
+  /// Whether the device has the atomics, and buffers large enough for this frame. (48 bytes a pair
+  /// and view: where storage buffers end at 128 MiB, 2,300 points in one view.)
+  [[nodiscard]] static bool possible(const gpu::Core& core, const PairData& data,
+                                     vk::Extent2D extent);
+
   /// Room for the frame; the device must not be drawing.
   void update(PairData& data, vk::Extent2D extent);
   /// Fills the visibility buffer; outside of rendering.

@@ -14,15 +14,16 @@ void PairPass::update(const PairGlyphs& glyphs, const ViewSet& views) {
   if (nothing()) return;
   const PairWay way = views.options().pair_way;
   const bool many = data_.pairCount() >= kFewPairs;
-  splatted_ =
-      setup_.core.wideAtomics() && (way == PairWay::splats || (way == PairWay::chosen && many));
+  const auto& size = views.data().views[0].size;
+  const vk::Extent2D extent(static_cast<std::uint32_t>(size[0]),
+                            static_cast<std::uint32_t>(size[1]));
+  splatted_ = (way == PairWay::splats || (way == PairWay::chosen && many)) &&
+              PairSplats::possible(setup_.core, data_, extent);
   ranked_ = data_.choice().most > 0 && data_.changed();
   if (ranked_ && !ranking_) ranking_.emplace(setup_, data_);
   if (splatted_) {
     if (!splats_) splats_.emplace(setup_, data_);
-    const auto& size = views.data().views[0].size;
-    splats_->update(data_,
-                    {static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1])});
+    splats_->update(data_, extent);
   } else {
     if (!quads_) quads_.emplace(setup_, data_);
     quads_->update(data_);

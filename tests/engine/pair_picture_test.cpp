@@ -383,7 +383,8 @@ TEST_P(PairPicture, APixelIsOfThePairThatIsPickedThere) {
       if (coverage(picture, u, v) > 0.0 && coverage(picture, u, v) < 1.0) continue;  // an edge
       ASSERT_EQ(picked.has_value(), coverage(picture, u, v) == 1.0) << u << ' ' << v;
       if (!picked) continue;
-      // Alone it is seen there, and in its place what else is hit lies behind it.
+      // Alone it is seen there, maybe at its edge, and in its place what else is hit lies behind
+      // it.
       std::vector<std::pair<std::uint32_t, std::uint32_t>> others;
       for (std::uint32_t j = 1; j < 9; ++j) {
         for (std::uint32_t i = 0; i < j; ++i) {
@@ -391,7 +392,7 @@ TEST_P(PairPicture, APixelIsOfThePairThatIsPickedThere) {
         }
       }
       glyphs.choice = {.left_out = others};
-      EXPECT_EQ(coverage(draw(view, sceneOf(glyphs), options()), u, v), 1.0);
+      EXPECT_GE(coverage(draw(view, sceneOf(glyphs), options()), u, v), 0.45);
       glyphs.choice = {.left_out = {{picked->j, picked->i}}};
       const auto next = pickPair(glyphs, view, Eigen::Vector2d(u, v));
       if (next) EXPECT_GT(next->depth, picked->depth);
@@ -441,6 +442,7 @@ TEST_F(PairWays, PointsThatNoBufferTakesAreSaidSo) {
   useGpu(GpuOptions{.validation = true, .most_texels = 1830U});
   (void)draw(overFloor(), scene, {});
   EXPECT_EQ(stats_.pairs.problem, "");
+  EXPECT_FALSE(stats_.pairs.splatted) << "what splatting needs besides doesn't fit either";
   EXPECT_EQ(stats_.pairs.chosen, 1770U);
   useGpu(GpuOptions{.validation = true, .most_texels = 1829U});
   (void)draw(overFloor(), scene, {});

@@ -10,6 +10,7 @@
 #include "engine/render/shader_code.hpp"
 #include "shaders/interop/frame.h"
 #include "shaders/interop/glyphs.h"
+#include "shaders/interop/pairs.h"
 
 namespace slamscope::engine {
 namespace {
@@ -23,6 +24,8 @@ struct Everything {
   interop::SegmentGlyph segment;
   interop::RectGlyph rect;
   interop::LetterGlyph letter;
+  interop::PairsData pairs;
+  interop::PairsCounts counts;
 };
 
 /// Gives every field its own number, in the order of declaration, and lists them.
@@ -53,6 +56,12 @@ class Counter {
     all(e.rect.min_px, e.rect.max_px, e.rect.colour);
     all(e.letter.anchor, e.letter.offset_px, e.letter.min_px, e.letter.max_px, e.letter.uv,
         e.letter.colour, e.letter.anchored, e.letter.halo);
+    interop::PairsData& p = e.pairs;
+    all(p.points, p.pairs, p.views, p.law, p.gain, p.unit, p.origin, p.ex, p.ey, p.ez, p.scale,
+        p.colour, p.conditions, p.least_area, p.most, p.run);
+    interop::PairsCounts& n = e.counts;
+    all(n.chosen, n.drawn, n.not_finite, n.large, n.vertices, n.instances, n.first_vertex,
+        n.first_instance, n.least_key, n.rank);
   }
   [[nodiscard]] const std::vector<float>& numbers() const { return numbers_; }
 
