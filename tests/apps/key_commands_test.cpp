@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/lib/view/monitor.hpp"
+#include "apps/lib/view/scene_builder.hpp"
+
 namespace slamscope::apps {
 namespace {
 
