@@ -54,32 +54,6 @@ double rangeTo(const Eigen::Vector2d& post, const Eigen::Vector2d& origin,
   return along > 0.0 && squared > 0.0 ? along - std::sqrt(squared) : kReach;
 }
 
-}  // namespace
-
-LaserLab::LaserLab(const LaserLabOptions& options)
-    : options_(options),
-      posts_{{1, 2, 3, 4, 5},
-             {{1.20, -0.35}, {1.25, 1.05}, {0.55, 1.65}, {-0.95, 1.45}, {-1.15, -0.30}}},
-      drive_({.loops = options.loops, .rate = kOdometryRate, .speed = 0.25, .rest = 1.0}) {
-  if (!(options.range_sigma > 0.0) || !(options.sway_sigma >= 0.0) ||
-      !(options.forward_sigma >= 0.0) || !(options.turn_sigma >= 0.0)) {
-    throw std::invalid_argument("a laser lab needs range σ > 0, other σ not negative");
-  }
-  const double right = 2.2;
-  walls_ = {{{right, -0.40}, {right, 0.45}},
-            {{right, 0.45}, {right, 0.80}, options.glossy},
-            {{right, 0.80}, {right, 1.90}},
-            {{-2.2, -0.70}, {-2.2, 1.40}}};
-  const Eigen::Vector2d corners[] = {{4.2, -2.6}, {4.2, 3.6}, {-4.2, 3.6}, {-4.2, -2.6}};
-  for (int k = 0; k < 4; ++k) walls_.push_back({corners[k], corners[(k + 1) % 4]});
-}
-
-double LaserLab::postRadius() const {
-  return kPostRadius;
-}
-
-namespace {
-
 /// One sweep, the robot driving on meanwhile.
 LaserScan scanAt(const LaserLab& lab, const LaserLabOptions& options, nanoseconds time,
                  RandomSource& random) {
@@ -90,7 +64,7 @@ LaserScan scanAt(const LaserLab& lab, const LaserLabOptions& options, nanosecond
                  .intensities = {}};
   std::vector<Eigen::Vector2d> posts = lab.posts().features;
   for (Eigen::Vector2d& post : posts) {
-    post += options.sway_sigma * Eigen::Vector2d(random.normal(), random.normal());
+    for (double& coordinate : post) coordinate += options.sway_sigma * random.normal();
   }
   constexpr int kReturns = 481;
   for (std::size_t k = 0; k < kReturns; ++k) {
@@ -116,6 +90,28 @@ LaserScan scanAt(const LaserLab& lab, const LaserLabOptions& options, nanosecond
 }
 
 }  // namespace
+
+LaserLab::LaserLab(const LaserLabOptions& options)
+    : options_(options),
+      posts_{{1, 2, 3, 4, 5},
+             {{1.20, -0.35}, {1.25, 1.05}, {0.55, 1.65}, {-0.95, 1.45}, {-1.15, -0.30}}},
+      drive_({.loops = options.loops, .rate = kOdometryRate, .speed = 0.25, .rest = 1.0}) {
+  if (!(options.range_sigma > 0.0) || !(options.sway_sigma >= 0.0) ||
+      !(options.forward_sigma >= 0.0) || !(options.turn_sigma >= 0.0)) {
+    throw std::invalid_argument("a laser lab needs range σ > 0, other σ not negative");
+  }
+  const double right = 2.2;
+  walls_ = {{{right, -0.40}, {right, 0.45}},
+            {{right, 0.45}, {right, 0.80}, options.glossy},
+            {{right, 0.80}, {right, 1.90}},
+            {{-2.2, -0.70}, {-2.2, 1.40}}};
+  const Eigen::Vector2d corners[] = {{4.2, -2.6}, {4.2, 3.6}, {-4.2, 3.6}, {-4.2, -2.6}};
+  for (int k = 0; k < 4; ++k) walls_.push_back({corners[k], corners[(k + 1) % 4]});
+}
+
+double LaserLab::postRadius() const {
+  return kPostRadius;
+}
 
 Recording LaserLab::record() const {
   Recording recording;
