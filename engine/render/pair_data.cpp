@@ -102,8 +102,9 @@ std::vector<std::uint32_t> alongCurve(std::span<const Eigen::Vector2f> means) {
 
 /// Pairs a lane: enough work groups to share evenly, few enough that their ends cost nothing.
 std::uint32_t runOf(std::size_t pairs) {
-  constexpr std::size_t kLanes = 64 * 64;
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>((pairs + kLanes - 1) / kLanes, 1, 64));
+  constexpr std::size_t kLanesAtOnce = 64 * 64;
+  return static_cast<std::uint32_t>(
+      std::clamp<std::size_t>((pairs + kLanesAtOnce - 1) / kLanesAtOnce, 1, 64));
 }
 
 interop::PairsData dataOf(const PairGlyphs& glyphs, const ViewSet& views) {

@@ -12,7 +12,7 @@
 namespace slamscope::apps {
 namespace {
 
-slam::Snapshot simulated() {
+slam::Snapshot simulatedMap() {
   slam::Simulation simulation({.loops = 1});
   while (simulation.step()) {
   }
@@ -92,7 +92,7 @@ class PairOnDevice : public testing::TestWithParam<engine::PairWay> {
     return outline.value_or(engine::OutlineEllipse{});
   }
 
-  slam::Snapshot snapshot_ = simulated();
+  slam::Snapshot snapshot_ = simulatedMap();
   engine::PlanarPointsPtr points_ = pointsOf(snapshot_);
   SceneStyle style_{.axis = {.axis = slam::Axis::sigma, .k = 3.0, .gain = 4.0}};
   engine::View view_ = straightDown();
@@ -102,8 +102,8 @@ class PairOnDevice : public testing::TestWithParam<engine::PairWay> {
 
 INSTANTIATE_TEST_SUITE_P(Ways, PairOnDevice,
                          testing::Values(engine::PairWay::quads, engine::PairWay::splats),
-                         [](const auto& info) {
-                           return info.param == engine::PairWay::quads ? "Quads" : "Splats";
+                         [](const auto& way) {
+                           return way.param == engine::PairWay::quads ? "Quads" : "Splats";
                          });
 
 TEST_P(PairOnDevice, IsTheEllipseOfTheRelativeCovarianceInDouble) {

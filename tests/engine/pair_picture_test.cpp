@@ -119,8 +119,8 @@ class PairPicture : public PairTest, public ::testing::WithParamInterface<PairWa
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, PairPicture, ::testing::Values(PairWay::quads, PairWay::splats),
-                         [](const auto& info) {
-                           return info.param == PairWay::quads ? "Quads" : "Splats";
+                         [](const auto& way) {
+                           return way.param == PairWay::quads ? "Quads" : "Splats";
                          });
 
 struct PairMisfit {
@@ -340,6 +340,30 @@ TEST_P(PairPicture, DegeneratePairsAreDefined) {
   }
 }
 
+TEST_P(PairPicture, ThousandsOfPixelsLargeOrBesideTheEyeTheyAreAsEllipsoidsOfTheScene) {
+  const View view = overFloor();
+  for (const auto& [major, minor, angle] :
+       {std::array{7.0, 0.8, 0.1}, std::array{3.0, 0.3, 1.4}, std::array{20.0, 0.05, 0.6}}) {
+    const PairGlyphs glyphs = pairWith(covarianceOf(major, minor, angle), {0.1, 0.3});
+    const Image pair = drawn(view, sceneOf(glyphs));
+    Scene expected;
+    expected.ellipsoids = {pairEllipsoid(glyphs, 0, 1)};
+    const Image reference = draw(view, expected, options());
+    const double area = momentsOf(reference).area;
+    EXPECT_GT(area, 500.0);
+    EXPECT_NEAR(momentsOf(pair).area, area, 0.002 * area);
+    int off = 0;
+    for (int v = 0; v < pair.height; ++v) {
+      for (int u = 0; u < pair.width; ++u) {
+        off += std::abs(coverage(pair, u, v) - coverage(reference, u, v)) > 0.02 ? 1 : 0;
+      }
+    }
+    EXPECT_LE(off, 20) << major;
+    expected.ellipsoids[0].axes.col(1) *= 1.05;  // twin
+    EXPECT_GT(std::abs(momentsOf(draw(view, expected, options())).area - area), 0.002 * area);
+  }
+}
+
 TEST_P(PairPicture, TranslucentOnesFadeAsOneLayer) {
   const View view = overFloor();
   PairGlyphs glyphs = someMap(6, 0.2);
@@ -395,7 +419,7 @@ TEST_P(PairPicture, APixelIsOfThePairThatIsPickedThere) {
       EXPECT_GE(coverage(draw(view, sceneOf(glyphs), options()), u, v), 0.45);
       glyphs.choice = {.left_out = {{picked->j, picked->i}}};
       const auto next = pickPair(glyphs, view, Eigen::Vector2d(u, v));
-      if (next) EXPECT_GT(next->depth, picked->depth);
+      EXPECT_GT(next ? next->depth : picked->depth + 1.0, picked->depth);
     }
   }
 }
