@@ -167,8 +167,9 @@ struct BruteForce {
     const Eigen::MatrixXd P = state.P.selfadjointView<Eigen::Lower>();
     const Eigen::MatrixXd S = H * P * H.transpose() + R;
     result.pairs = static_cast<int>(rows.size());
-    result.squared = innovation.dot(S.llt().solve(innovation));
-    result.gain -= 0.5 * (result.squared + std::log(S.determinant()));
+    const Eigen::LLT<Eigen::MatrixXd> factor(S);
+    result.squared = innovation.dot(factor.solve(innovation));
+    result.gain -= 0.5 * result.squared + factor.matrixLLT().diagonal().array().log().sum();
     return result;
   }
 };
