@@ -82,8 +82,8 @@ class SceneBuilder {
     addEllipsoid(pair, relativeEllipsoid(pair.P_d, 0.5 * (from + to), style_));
   }
 
-  /// The pairs of the mode, by the device; those that are flagged apart, for they have colours and
-  /// halos of their own.
+  /// The pairs of the mode, by the device; apart those that are flagged, for they have colours and
+  /// halos of their own, and where pairs can be told apart those of tentative features.
   void addPairsOnDevice() {
     if (!belief_.points) return;
     engine::PairGlyphs glyphs{.points = belief_.points,
@@ -99,7 +99,10 @@ class SceneBuilder {
       addPair({std::min(*i, *j), std::max(*i, *j), slam::relativeCovariance(snapshot_, *i, *j)});
     }
     const bool all_shown = style_.most_pairs == 0 && style_.least_area == 0.0;
-    if (all_shown && belief_.points->pairCount() <= kMostPairLines) addPairLines();
+    if (all_shown && belief_.points->pairCount() <= kMostPairLines) {
+      addPairLines();
+      addDoubtfulPairs(glyphs.choice);
+    }
     scene_.pairs = std::make_shared<engine::PairGlyphs>(std::move(glyphs));
   }
 
@@ -135,6 +138,11 @@ class SceneBuilder {
     return picked(i) || picked(j);
   }
 
+  /// Shown, and not flagged.
+  [[nodiscard]] bool plain(int i, int j) const {
+    return shown(i, j) && alarms_.pair(id(i), id(j)) == nullptr;
+  }
+
   [[nodiscard]] engine::PairChoice choice() const {
     engine::PairChoice choice{.least_area = style_.least_area, .most = style_.most_pairs};
     if (style_.mode == slam::PairMode::between_clusters) {
@@ -157,8 +165,18 @@ class SceneBuilder {
   void addPairLines() {
     for (int i = 0; i < snapshot_.featureCount(); ++i) {
       for (int j = i + 1; j < snapshot_.featureCount(); ++j) {
-        if (!shown(i, j) || alarms_.pair(id(i), id(j)) != nullptr) continue;
+        if (!plain(i, j) || isTentative(i) || isTentative(j)) continue;
         addLine(featureOnFloor(i), featureOnFloor(j), colour::kPair);
+      }
+    }
+  }
+
+  void addDoubtfulPairs(engine::PairChoice& choice) {
+    for (int i = 0; i < snapshot_.featureCount(); ++i) {
+      for (int j = i + 1; j < snapshot_.featureCount(); ++j) {
+        if (!plain(i, j) || !(isTentative(i) || isTentative(j))) continue;
+        choice.left_out.emplace_back(i, j);
+        addPair({i, j, slam::relativeCovariance(snapshot_, i, j)});
       }
     }
   }
