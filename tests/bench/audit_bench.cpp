@@ -17,7 +17,7 @@ namespace {
 /// A filter with all its features in the map, standing still amid them; each update observes
 /// `together` of them, with errors as large as declared.
 struct Bench {
-  Bench(int features, int together) : filter(options()), together(together) {
+  Bench(int features, int at_once) : filter(options()), together(at_once) {
     const Eigen::Matrix2d R = Eigen::Vector2d(0.0036, 0.0016).asDiagonal();
     for (int k = 0; k < features; ++k) {
       const double angle = 0.1 + 2.9 * k / features;

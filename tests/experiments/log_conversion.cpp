@@ -86,7 +86,8 @@ double rounded(double value, Precision precision) {
 
 std::string kindName(const LogKind& kind) {
   std::string name(levelName(kind.level));
-  name += " " + std::string(precisionName(kind.precision));
+  name += ' ';
+  name += precisionName(kind.precision);
   if (kind.declared) name += " declared";
   if (kind.truth) name += " truth";
   return name;
