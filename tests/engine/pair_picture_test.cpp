@@ -1,122 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <array>
-#include <random>
-
 #include "engine/scene/clip.hpp"
 #include "engine/scene/ellipsoid_outline.hpp"
-#include "engine/scene/pair_glyphs.hpp"
 #include "engine/scene/pair_pick.hpp"
-#include "tests/engine/picture.hpp"
+#include "tests/engine/pair_scene.hpp"
 
-// Pairs of points as ellipsoids, in both ways of drawing.
+// Pairs of points as ellipsoids, pixel by pixel, in both ways of drawing.
 namespace slamscope::engine {
 namespace {
-
-constexpr Pinhole kFloorCamera = {
-    .width = 320, .height = 240, .fx = 300.0, .fy = 310.0, .cx = 158.3, .cy = 121.6, .skew = 5.0};
-
-View overFloor() {
-  return lookingAt(kFloorCamera, {0.1, -1.6, 1.4}, {0.05, 0.0, 0.0}, 0.1);
-}
-
-std::vector<double> packed(const Eigen::MatrixXd& P) {
-  std::vector<double> lower;
-  for (int row = 0; row < P.rows(); ++row) {
-    for (int column = 0; column <= row; ++column) lower.push_back(P(row, column));
-  }
-  return lower;
-}
-
-PairGlyphs glyphsOf(const std::vector<Eigen::Vector2d>& means, const Eigen::MatrixXd& P) {
-  return {.points = std::make_shared<PlanarPoints>(means, packed(P)),
-          .axis = {},
-          .choice = {},
-          .colour = kWhite};
-}
-
-Scene sceneOf(const PairGlyphs& glyphs) {
-  Scene scene;
-  scene.pairs = std::make_shared<PairGlyphs>(glyphs);
-  return scene;
-}
-
-/// Two points whose difference has this covariance, the middle between them at `middle`.
-PairGlyphs pairWith(const Eigen::Matrix2d& P_d, const Eigen::Vector2d& middle) {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(4, 4);
-  P.topLeftCorner<2, 2>() = 0.25 * P_d;
-  P.bottomRightCorner<2, 2>() = 0.25 * P_d;
-  P.bottomLeftCorner<2, 2>() = -0.25 * P_d;
-  const Eigen::Vector2d half(0.31, 0.12);
-  return glyphsOf({middle - half, middle + half}, P);
-}
-
-Eigen::Matrix2d covarianceOf(double major, double minor, double angle) {
-  const Eigen::Matrix2d R = Eigen::Rotation2Dd(angle).toRotationMatrix();
-  return R * Eigen::Vector2d(major * major, minor * minor).asDiagonal() * R.transpose();
-}
-
-/// What it must look like.
-Ellipsoid ellipsoidOf(double major, double minor, double angle, const Eigen::Vector2d& middle) {
-  Ellipsoid ellipsoid{.centre = {middle.x(), middle.y(), 0.0}, .axes = {}, .colour = kWhite};
-  ellipsoid.axes = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
-                   Eigen::Vector3d(major, minor, minor).asDiagonal();
-  return ellipsoid;
-}
-
-/// n points on the floor with a covariance as after some SLAM: a common part and parts of their
-/// own.
-PairGlyphs someMap(int n, double sigma, unsigned seed = 3) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(-0.8, 0.8);
-  std::normal_distribution<double> normal;
-  std::vector<Eigen::Vector2d> means;
-  for (int i = 0; i < n; ++i) means.emplace_back(place(random), place(random));
-  Eigen::MatrixXd root(2 * n, 6);
-  for (double& value : root.reshaped()) value = sigma * normal(random);
-  Eigen::MatrixXd P = root * root.transpose() / 6.0;
-  P.diagonal().array() += 0.2 * sigma * sigma;
-  return glyphsOf(means, P);
-}
-
-/// Draws again and again with what was made once.
-class PairTest : public PictureTest {
- protected:
-  std::vector<Image> draw(std::span<const View> views, const Scene& scene,
-                          const RenderOptions& options) {
-    auto& offscreen = offscreen_[views.size() - 1];
-    const Pinhole& camera = views.front().camera;
-    const int count = static_cast<int>(views.size());
-    if (!offscreen) {
-      offscreen = std::make_unique<Offscreen>(gpu_, camera.width, camera.height, count);
-    }
-    auto pictures = offscreen->draw(views, scene, options);
-    stats_ = offscreen->lastStats();
-    return pictures;
-  }
-  Image draw(const View& view, const Scene& scene, const RenderOptions& options) {
-    return draw({&view, 1}, scene, options).front();
-  }
-  void useGpu(const GpuOptions& options) {
-    offscreen_ = {};
-    gpu_ = std::make_shared<Gpu>(options);
-  }
-
- private:
-  std::array<std::unique_ptr<Offscreen>, 2> offscreen_;
-};
-
-/// One way of drawing, with everything else equal.
-class PairPicture : public PairTest, public ::testing::WithParamInterface<PairWay> {
- protected:
-  [[nodiscard]] static RenderOptions options(bool lit = false) {
-    return {.lit = lit, .pair_way = GetParam()};
-  }
-  Image drawn(const View& view, const Scene& scene) {
-    Image image = draw(view, scene, options());
-    EXPECT_EQ(stats_.pairs.splatted, GetParam() == PairWay::splats);
-    return image;
-  }
-};
 
 INSTANTIATE_TEST_SUITE_P(Ways, PairPicture, ::testing::Values(PairWay::quads, PairWay::splats),
                          [](const auto& way) {
@@ -234,20 +124,6 @@ TEST_P(PairPicture, EveryPixelAwayFromEdgesIsThatOfTheNearestEllipsoid) {
   EXPECT_GT(found_wrong, 2 * wrong + 50);
 }
 
-TEST_P(PairPicture, PointsAreSentOnceAndNotAgainWhenOnlyTheViewerMoves) {
-  const View view = overFloor();
-  const Scene scene = sceneOf(someMap(40, 0.02));
-  Offscreen offscreen(gpu_, view.camera.width, view.camera.height);
-  (void)offscreen.draw({&view, 1}, scene, options());
-  EXPECT_EQ(offscreen.lastStats().pairs.uploaded_bytes, 40U * 8 + 820U * 16);
-  const View moved = lookingAt(kFloorCamera, {0.4, -1.2, 1.6}, {0, 0, 0});
-  const Image picture = offscreen.draw({&moved, 1}, scene, options()).front();
-  EXPECT_EQ(offscreen.lastStats().pairs.uploaded_bytes, 0U);
-  EXPECT_TRUE(sameBytes(picture, draw(moved, scene, options())));
-  (void)offscreen.draw({&view, 1}, sceneOf(someMap(40, 0.03)), options());
-  EXPECT_GT(offscreen.lastStats().pairs.uploaded_bytes, 0U);
-}
-
 TEST_P(PairPicture, BothEyesAreDrawnAndEachAsIfAlone) {
   const View left = overFloor();
   View right = left;
@@ -258,62 +134,6 @@ TEST_P(PairPicture, BothEyesAreDrawnAndEachAsIfAlone) {
   const Difference off = difference(both[1], draw(right, scene, options(true)));
   EXPECT_LE(off.most, 2);
   EXPECT_FALSE(sameBytes(both[0], both[1]));
-}
-
-TEST_P(PairPicture, ConditionsChooseThePairsAndAreCounted) {
-  const View view = overFloor();
-  PairGlyphs glyphs = someMap(10, 0.03);
-  const auto chosen = [&](const PairChoice& choice) {
-    glyphs.choice = choice;
-    (void)draw(view, sceneOf(glyphs), options());
-    return stats_.pairs.chosen;
-  };
-  EXPECT_EQ(chosen({}), 45U);
-  EXPECT_EQ(stats_.pairs.all, 45U);
-  EXPECT_EQ(chosen({.groups = {0, 0, 0, 0, 1, 1, 1, 2, 2, 2}}), 4U * 6 + 3U * 3);
-  EXPECT_EQ(chosen({.touching = {3}}), 9U);
-  EXPECT_EQ(chosen({.touching = {3, 7}}), 17U);
-  EXPECT_EQ(chosen({.left_out = {{2, 5}, {5, 1}, {9, 8}}}), 42U);
-  EXPECT_EQ(chosen({.most = 7}), 7U);
-  EXPECT_EQ(chosen({.most = 44}), 44U);
-  EXPECT_EQ(chosen({.most = 100}), 45U);
-  EXPECT_EQ(chosen({.touching = {3}, .most = 4}), 4U);
-  EXPECT_EQ(chosen({.least_area = 1e6}), 0U);
-  EXPECT_EQ(stats_.pairs.drawn, 0U);
-}
-
-TEST_P(PairPicture, TheMostAreThoseOfTheGreatestArea) {
-  const View view = overFloor();
-  PairGlyphs glyphs = someMap(12, 0.03);
-  const auto chosenFrom = [&](double least_area) {
-    glyphs.choice = {.least_area = least_area};
-    (void)draw(view, sceneOf(glyphs), options());
-    return stats_.pairs.chosen;
-  };
-  // The area that exactly ten pass, by halving.
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 40 && chosenFrom(low) != 10; ++i) {
-    const double middle = 0.5 * (low + high);
-    (chosenFrom(middle) >= 10 ? low : high) = middle;
-  }
-  ASSERT_EQ(chosenFrom(low), 10U);
-  const Image by_area = draw(view, sceneOf(glyphs), options());
-  glyphs.choice = {.most = 10};
-  EXPECT_TRUE(sameBytes(by_area, draw(view, sceneOf(glyphs), options())));
-  glyphs.choice = {.most = 11};
-  EXPECT_FALSE(sameBytes(by_area, draw(view, sceneOf(glyphs), options())));
-}
-
-TEST_P(PairPicture, OnlyThoseInThePictureAreCountedAsDrawn) {
-  const View view = overFloor();
-  PairGlyphs glyphs = pairWith(covarianceOf(0.1, 0.1, 0.0), {0.0, 0.0});
-  (void)drawn(view, sceneOf(glyphs));
-  EXPECT_EQ(stats_.pairs.drawn, 1U);
-  glyphs = pairWith(covarianceOf(0.1, 0.1, 0.0), {40.0, 0.0});
-  (void)drawn(view, sceneOf(glyphs));
-  EXPECT_EQ(stats_.pairs.chosen, 1U);
-  EXPECT_EQ(stats_.pairs.drawn, 0U);
 }
 
 TEST_P(PairPicture, DegeneratePairsAreDefined) {
@@ -422,62 +242,6 @@ TEST_P(PairPicture, APixelIsOfThePairThatIsPickedThere) {
       EXPECT_GT(next ? next->depth : picked->depth + 1.0, picked->depth);
     }
   }
-}
-
-class PairWays : public PairTest {};
-
-TEST_F(PairWays, GiveTheSamePictureButForPixelsWhereEdgesMeet) {
-  const View view = overFloor();
-  for (const bool lit : {false, true}) {
-    const Scene scene = sceneOf(someMap(14, 0.03));
-    const Image quads = draw(view, scene, {.lit = lit, .pair_way = PairWay::quads});
-    const Image splats = draw(view, scene, {.lit = lit, .pair_way = PairWay::splats});
-    int off = 0;
-    for (int v = 0; v < quads.height; ++v) {
-      for (int u = 0; u < quads.width; ++u) {
-        off += std::abs(channel(quads, u, v, 0) - channel(splats, u, v, 0)) > 5 ? 1 : 0;
-      }
-    }
-    EXPECT_LE(off, quads.width * quads.height / 50);
-    const double area = momentsOf(quads).area;
-    EXPECT_NEAR(momentsOf(splats).area, area, 0.01 * area);
-    EXPECT_GT(difference(quads, draw(view, sceneOf(someMap(14, 0.031)), {.lit = lit})).pixels, off);
-  }
-}
-
-TEST_F(PairWays, AreChosenByTheNumberOfPairs) {
-  const View view = overFloor();
-  (void)draw(view, sceneOf(someMap(15, 0.03)), {});
-  EXPECT_FALSE(stats_.pairs.splatted);
-  (void)draw(view, sceneOf(someMap(60, 0.03)), {});
-  EXPECT_TRUE(stats_.pairs.splatted);
-}
-
-TEST_F(PairWays, WithoutWideAtomicsQuadsDoItAll) {
-  useGpu(GpuOptions{.validation = true, .wide_atomics = false});
-  const Scene scene = sceneOf(someMap(60, 0.01));
-  (void)draw(overFloor(), scene, {.pair_way = PairWay::splats});
-  EXPECT_FALSE(stats_.pairs.splatted);
-  EXPECT_EQ(stats_.pairs.chosen, 1770U);
-}
-
-TEST_F(PairWays, PointsThatNoBufferTakesAreSaidSo) {
-  const Scene scene = sceneOf(someMap(60, 0.01));
-  useGpu(GpuOptions{.validation = true, .most_texels = 1830U});
-  (void)draw(overFloor(), scene, {});
-  EXPECT_EQ(stats_.pairs.problem, "");
-  EXPECT_FALSE(stats_.pairs.splatted) << "what splatting needs besides doesn't fit either";
-  EXPECT_EQ(stats_.pairs.chosen, 1770U);
-  useGpu(GpuOptions{.validation = true, .most_texels = 1829U});
-  (void)draw(overFloor(), scene, {});
-  EXPECT_NE(stats_.pairs.problem.find("60 points"), std::string::npos);
-  EXPECT_EQ(stats_.pairs.chosen, 0U);
-}
-
-TEST(PlanarPoints, NeedTheWholeTriangle) {
-  const std::vector<Eigen::Vector2d> means(3, Eigen::Vector2d::Zero());
-  EXPECT_NO_THROW(PlanarPoints(means, std::vector<double>(45), 3));
-  EXPECT_THROW(PlanarPoints(means, std::vector<double>(44), 3), std::invalid_argument);
 }
 
 }  // namespace
