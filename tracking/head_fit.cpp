@@ -8,35 +8,25 @@
 #include <map>
 #include <set>
 
+#include "tracking/robust_descent.hpp"
+
 namespace slamscope::tracking {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kMostSteps = 25;
-constexpr int kMostRounds = 4;
 constexpr double kAtRestRoughly = 1e-3, kAtRest = 1e-9;  // change of cost
-constexpr double kFullWeightSigmas = 4;
-constexpr double kUnlimited = 1e9;
-constexpr double kNeverOutlier_px = 0.5;  // whatever the sigmas say
-constexpr double kQuantile = 0.35;        // nearly two thirds of the corners may be wrong
-
-/// Normal equations about a motion.
-struct HeadSystem {
-  Matrix12d H = Matrix12d::Zero();
-  Vector12d g = Vector12d::Zero();
-  double cost = 0;
-  bool valid = true;
-};
+constexpr double kNeverOutlier_px = 0.5;                 // whatever the sigmas say
 
 /// Information of the prior; of its velocities alone where the pose isn't believed.
 Matrix12d informationOf(const HeadFitProblem& problem) {
   Matrix12d information = Matrix12d::Zero();
   if (problem.pose_believed) {
-    information = problem.prior.covariance.llt().solve(Matrix12d::Identity());
+    const Matrix12d P = problem.prior.covariance.topLeftCorner<12, 12>();
+    information = P.llt().solve(Matrix12d::Identity());
   } else {
     using Matrix6 = Eigen::Matrix<double, 6, 6>;
-    const Matrix6 P = problem.prior.covariance.bottomRightCorner<6, 6>();
+    const Matrix6 P = problem.prior.covariance.block<6, 6>(6, 6);
     information.bottomRightCorner<6, 6>() = P.llt().solve(Matrix6::Identity());
   }
   return information;
@@ -51,18 +41,14 @@ class HeadSolver {
 
   std::optional<HeadFit> solve(HeadMotion motion) {
     if (used_.empty()) return std::nullopt;
-    double scale = scaleOf(motion);
-    for (int round = 0; round < kMostRounds; ++round) {
-      const auto better = descend(motion, scale, kAtRestRoughly);
-      if (!better) return std::nullopt;
-      motion = *better;
-      const double narrower = std::max(1.0, std::min(scale / 3, scaleOf(motion)));
-      if (narrower == scale) break;
-      scale = narrower;
-    }
+    const auto narrowed = narrowDown(
+        motion, [&](const HeadMotion& at) { return scaleOf(at); },
+        [&](const HeadMotion& at, double scale) { return descendAt(at, scale, kAtRestRoughly); });
+    if (!narrowed) return std::nullopt;
+    motion = *narrowed;
     gate(motion, scaleOf(motion));
     if (!determined()) return std::nullopt;
-    const auto last = descend(motion, kUnlimited, kAtRest);
+    const auto last = descendAt(motion, kNoOutliers, kAtRest);
     if (!last) return std::nullopt;
     return report(*last);
   }
@@ -70,17 +56,13 @@ class HeadSolver {
  private:
   /// How much larger the errors are than the sigmas say.
   [[nodiscard]] double scaleOf(const HeadMotion& motion) const {
-    static const double unit = std::sqrt(-2 * std::log(1 - kQuantile));
     std::vector<double> errors = headDistances(problem_.eyes, problem_.sights, motion);
     for (std::size_t i = 0; i < errors.size(); ++i) errors[i] /= problem_.sights[i].sigma_px;
-    const auto at = errors.begin() + static_cast<std::ptrdiff_t>(kQuantile * double(errors.size()));
-    std::nth_element(errors.begin(), at, errors.end());
-    return std::max(1.0, *at / unit);
+    return errorScale(std::move(errors));
   }
 
-  [[nodiscard]] HeadSystem linearise(const HeadMotion& motion, double scale) const {
-    HeadSystem system;
-    const double limit = kFullWeightSigmas * scale, l2 = limit * limit;
+  [[nodiscard]] NormalEquations<12> linearise(const HeadMotion& motion, double scale) const {
+    NormalEquations<12> system;
     for (std::size_t i = 0; i < used_.size(); ++i) {
       if (!used_[i]) continue;
       const HeadSight& sight = problem_.sights[i];
@@ -93,11 +75,16 @@ class HeadSolver {
       }
       const Vector2d r = (sight.px - *px) / sight.sigma_px;
       J /= sight.sigma_px;
-      const double e2 = r.squaredNorm();
-      const double weight = e2 <= l2 ? 1 : l2 / e2;
-      system.cost += e2 <= l2 ? e2 : l2 * (1 + std::log(e2 / l2));
-      system.H.noalias() += weight * J.transpose() * J;
-      system.g.noalias() += weight * J.transpose() * r;
+      const auto [weight, cost] = robustTerm(r.squaredNorm(), scale);
+      system.cost += cost;
+      if (sight.delay == 0) {  // velocities move nothing: half of J is zero
+        const auto J_pose = J.leftCols<6>();
+        system.H.topLeftCorner<6, 6>().noalias() += weight * J_pose.transpose() * J_pose;
+        system.g.head<6>().noalias() += weight * J_pose.transpose() * r;
+      } else {
+        system.H.noalias() += weight * J.transpose() * J;
+        system.g.noalias() += weight * J.transpose() * r;
+      }
     }
     const Vector12d off = difference(problem_.prior, motion);
     system.H += information_;
@@ -106,29 +93,10 @@ class HeadSolver {
     return system;
   }
 
-  [[nodiscard]] std::optional<HeadMotion> descend(HeadMotion motion, double scale,
-                                                  double tolerance) const {
-    double damping = 1e-6;
-    HeadSystem at = linearise(motion, scale);
-    if (!at.valid) return std::nullopt;
-    for (int i = 0; i < kMostSteps; ++i) {
-      Matrix12d H = at.H;
-      H.diagonal() *= 1 + damping;
-      const Vector12d step = H.llt().solve(at.g);
-      if (!step.allFinite()) return std::nullopt;
-      const HeadMotion candidate = corrected(motion, step);
-      const HeadSystem next = linearise(candidate, scale);
-      if (next.valid && next.cost <= at.cost) {
-        const bool at_rest = at.cost - next.cost < tolerance * (1 + at.cost);
-        motion = candidate;
-        at = next;
-        damping = std::max(1e-9, damping * 0.1);
-        if (at_rest) break;
-      } else if ((damping *= 10) > 1e6) {
-        break;
-      }
-    }
-    return motion;
+  [[nodiscard]] std::optional<HeadMotion> descendAt(const HeadMotion& motion, double scale,
+                                                    double tolerance) const {
+    return descend(
+        motion, [&](const HeadMotion& at) { return linearise(at, scale); }, corrected, tolerance);
   }
 
   /// Leaves outliers out, and squares of which two corners are.
@@ -174,9 +142,10 @@ class HeadSolver {
     const double excess = chi2 / dof > 1 + 3 * std::sqrt(2 / dof) ? chi2 / dof : 1;
     fit.agrees = excess == 1 && fit.used_count == static_cast<int>(used_.size());
     // The corners' share of the information alone is worth less where they don't fit.
-    const Matrix12d H = (linearise(motion, kUnlimited).H - information_) / excess + information_;
-    fit.motion.covariance = H.llt().solve(Matrix12d::Identity());
-    if (problem_.pose_believed) fit.surprise = surpriseOf(off, fit.motion.covariance);
+    const Matrix12d H = (linearise(motion, kNoOutliers).H - information_) / excess + information_;
+    const Matrix12d P = H.llt().solve(Matrix12d::Identity());
+    fit.motion = conditioned(problem_.prior, motion, P);
+    if (problem_.pose_believed) fit.surprise = surpriseOf(off, P);
     return fit;
   }
 

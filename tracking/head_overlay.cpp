@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/floor_covariance.hpp"
 #include "tracking/tag_scene.hpp"
 
 namespace slamscope::tracking {
@@ -45,7 +46,7 @@ Matrix2d covarianceOf(const MapPixelOfHead& at, const EyeCamera& eye, const Head
                       const MapPlace& map, const Vector3d& p_map) {
   Eigen::Matrix<double, 2, 3> by_map;  // x, y, yaw in map axes
   by_map << at.by_point.leftCols<2>(), at.by_point * Vector3d::UnitZ().cross(p_map);
-  return at.by_head * motion.covariance * at.by_head.transpose() +
+  return at.by_head * motion.covariance.topLeftCorner<12, 12>() * at.by_head.transpose() +
          by_map * map.covariance * by_map.transpose() +
          eye.time_sigma * eye.time_sigma * at.by_time * at.by_time.transpose();
 }
@@ -60,7 +61,7 @@ EyeCamera::EyeCamera(const Rig& rig, std::size_t camera)
 
 std::optional<Vector2d> projectAt(const EyeCamera& eye, const HeadMotion& motion,
                                   const Vector3d& p_world, double delay, HeadJacobian* J) {
-  Matrix12d F;
+  Matrix18d F;
   const bool later = delay != 0;
   const HeadMotion then = later ? moved(motion, delay, J ? &F : nullptr) : motion;
   const Vector3d p_head =
@@ -75,7 +76,7 @@ std::optional<Vector2d> projectAt(const EyeCamera& eye, const HeadMotion& motion
   Eigen::Matrix<double, 2, 6> by_pose;
   by_pose << -J_head, J_head * skew(p_head);
   if (later) {
-    *J = by_pose * F.topRows<6>();
+    *J = by_pose * F.topLeftCorner<6, 12>();
   } else {
     *J << by_pose, Eigen::Matrix<double, 2, 6>::Zero();
   }
@@ -106,6 +107,13 @@ std::optional<Matrix2d> overlayCovariance(const EyeCamera& eye, const HeadMotion
   return covarianceOf(*at, eye, motion, map, p_map);
 }
 
+std::optional<Matrix2d> overlayCovarianceOnFloor(const EyeCamera& eye, const HeadMotion& motion,
+                                                 const MapPlace& map, const Vector3d& p_map) {
+  const auto at = seenOnMap(eye, motion, map, p_map);
+  if (!at) return std::nullopt;
+  return floorCovariance(covarianceOf(*at, eye, motion, map, p_map), at->by_point);
+}
+
 OverlayError overlayError(const EyeCamera& eye, const HeadMotion& motion, const MapPlace& map,
                           double extent_m) {
   constexpr int kSteps = 7;
@@ -117,10 +125,10 @@ OverlayError overlayError(const EyeCamera& eye, const HeadMotion& motion, const 
     const auto at = seenOnMap(eye, motion, map, p);
     if (!at) continue;
     const Matrix2d S = covarianceOf(*at, eye, motion, map, p);
-    const Matrix2d floor_of_px = at->by_point.leftCols<2>().inverse();
-    if (!floor_of_px.allFinite()) continue;
+    const auto S_floor = floorCovariance(S, at->by_point);
+    if (!S_floor) continue;
     sum.px += S.trace();
-    sum.floor_m += (floor_of_px * S * floor_of_px.transpose()).trace();
+    sum.floor_m += S_floor->trace();
     ++count;
   }
   if (count == 0) return {};

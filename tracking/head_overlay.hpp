@@ -25,7 +25,8 @@ struct EyeCamera {
   }
 };
 
-/// Derivative of a pixel by the errors of HeadMotion, px.
+/// Derivative of a pixel by the first twelve errors of HeadMotion, px: α and j move nothing that
+/// counts within one picture.
 using HeadJacobian = Eigen::Matrix<double, 2, 12>;
 
 /// Pixel of a point of the world that is seen by the head as it is `delay` seconds after
@@ -53,6 +54,13 @@ struct MapPlace {
                                                                const HeadMotion& motion,
                                                                const MapPlace& map,
                                                                const Eigen::Vector3d& p_map);
+
+/// The same as an ellipse on the map's floor that looks like Σ_uv from this eye: covariance of x
+/// and y, m², map axes.
+[[nodiscard]] std::optional<Eigen::Matrix2d> overlayCovarianceOnFloor(const EyeCamera& eye,
+                                                                      const HeadMotion& motion,
+                                                                      const MapPlace& map,
+                                                                      const Eigen::Vector3d& p_map);
 
 /// Root mean square of that over the floor in view (`extent_m` about the map's origin), in the
 /// picture (px) and on the floor (m): what the status line states. Nothing in view: zero.

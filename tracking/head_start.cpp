@@ -59,7 +59,9 @@ HeadMotion unknownMotion(const Isometry3d& T_world_head, const HeadStartOptions&
   motion.T_world_head = T_world_head;
   motion.covariance.diagonal() << Vector3d::Constant(1e4), Vector3d::Constant(1e2),
       Vector3d::Constant(options.sigma_v * options.sigma_v),
-      Vector3d::Constant(options.sigma_omega * options.sigma_omega);
+      Vector3d::Constant(options.sigma_omega * options.sigma_omega),
+      Vector3d::Constant(options.sigma_alpha * options.sigma_alpha),
+      Vector3d::Constant(options.sigma_jerk * options.sigma_jerk);
   return motion;
 }
 

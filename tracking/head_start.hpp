@@ -28,7 +28,8 @@ struct EyeSight {
 struct HeadStartOptions {
   std::chrono::nanoseconds time{};
   double gate_sigmas = 6;
-  double sigma_v = 0.8, sigma_omega = 1.6;  ///< how heads move, m/s and rad/s
+  double sigma_v = 0.8, sigma_omega = 1.6;      ///< how heads move, m/s and rad/s
+  double sigma_alpha = 5.0, sigma_jerk = 30.0;  ///< rad/s², rad/s³
   /// Whether a head may be there at all: decides where one may and another may not.
   std::function<bool(const Eigen::Isometry3d& T_world_head)> plausible;
 };

@@ -20,7 +20,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::array<const char*, 2> kEyeNames{"left", "right"};
+constexpr std::array<const char*, 2> kEyeNames{"the left camera", "the right camera"};
 constexpr nanoseconds kFreshPose{100'000'000};  // tracked until then, coasting after it
 constexpr nanoseconds kTogether{2'000'000};     // exposed together: fitted together
 constexpr double kFits_px = 1.5;  // a worse residual is no ground to find fault with single tags
@@ -62,7 +62,7 @@ struct HeadTracker::Parts {
     checkRig(rig, layout);
     for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
       eyes.emplace_back(rig, i);
-      stated.emplace_back(rig.cameras.size() == 1 ? "" : kEyeNames[i]);
+      stated.emplace_back(rig.cameras.size() == 1 ? "the camera" : kEyeNames[i]);
     }
     step.emplace(eyes, layout, options);
   }
@@ -97,9 +97,8 @@ struct HeadTracker::Parts {
     if (used.size() >= 2 && moment.fit->residual_px < kFits_px) {
       faults.add(eyes, layout, moment.sights, *moment.fit);
     }
-    if (used.size() < 3) return;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-      stated[i].add(eyes[i], layout, moment.sights, *moment.fit, i);
+      stated[i].add(eyes[i], layout, moment.sights, moment.fit->motion, i);
     }
   }
 
@@ -182,7 +181,7 @@ std::string HeadTracker::status(nanoseconds time) const {
   const HeadFix& fix = parts_->last;
   std::array<char, 160> numbers{};
   if (!pose) return text + ": no tag of the layout in view";
-  const Matrix12d& P = pose->motion.covariance;
+  const Matrix18d& P = pose->motion.covariance;
   std::snprintf(numbers.data(), numbers.size(),
                 ": %d of %d tags, residual %.2f px, head ±%.1f mm ±%.2f°", fix.tags_used,
                 fix.tags_seen, fix.residual_px, 1e3 * root(P.topLeftCorner<3, 3>().trace() / 3),

@@ -121,5 +121,10 @@ class Registration {
 [[nodiscard]] std::optional<Eigen::Matrix2d> overlayCovariance(
     const CameraModel& camera, const RegistrationResult& registration,
     const Eigen::Vector3d& p_map);
+/// The same as an ellipse on the map's floor that looks like Σ_uv: covariance of x and y, m², map
+/// axes.
+[[nodiscard]] std::optional<Eigen::Matrix2d> overlayCovarianceOnFloor(
+    const CameraModel& camera, const RegistrationResult& registration,
+    const Eigen::Vector3d& p_map);
 
 }  // namespace slamscope::tracking

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "tracking/floor_covariance.hpp"
 #include "tracking/tag_scene.hpp"
 
 namespace slamscope::tracking {
@@ -54,10 +55,10 @@ PredictedError predictError(const CameraModel& camera, const RegistrationResult&
     const auto at = mapPixel(camera, registration.T_camera_map, p);
     if (!at) continue;
     const Matrix2d S = at->by_pose * registration.covariance * at->by_pose.transpose();
-    const Matrix2d floor_of_px = at->by_point.leftCols<2>().inverse();
-    if (!floor_of_px.allFinite()) continue;
+    const auto S_floor = floorCovariance(S, at->by_point);
+    if (!S_floor) continue;
     sum.overlay_px += S.trace();
-    sum.floor_m += (floor_of_px * S * floor_of_px.transpose()).trace();
+    sum.floor_m += S_floor->trace();
     ++count;
   }
   if (count == 0) return {};
@@ -100,6 +101,15 @@ std::optional<Matrix2d> overlayCovariance(const CameraModel& camera,
   const auto at = mapPixel(camera, registration.T_camera_map, p_map);
   if (!at) return std::nullopt;
   return at->by_pose * registration.covariance * at->by_pose.transpose();
+}
+
+std::optional<Matrix2d> overlayCovarianceOnFloor(const CameraModel& camera,
+                                                 const RegistrationResult& registration,
+                                                 const Vector3d& p_map) {
+  const auto at = mapPixel(camera, registration.T_camera_map, p_map);
+  if (!at) return std::nullopt;
+  return floorCovariance(at->by_pose * registration.covariance * at->by_pose.transpose(),
+                         at->by_point);
 }
 
 }  // namespace slamscope::tracking

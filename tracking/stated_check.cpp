@@ -2,9 +2,12 @@
 #include "tracking/stated_check.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
+#include <vector>
 
 #include "tracking/tag_scene.hpp"
 
@@ -17,6 +20,9 @@ constexpr double kForget = 0.98;  // a picture; some fifty count
 constexpr double kLeastPlaces = 8;
 constexpr double kFurther_m = 0.05, kTurnedFurther = 0.05;  // since the picture before
 constexpr double kSignificant = 7;
+constexpr std::size_t kLeastTags = 3;
+constexpr std::size_t kRemembered = 10;  // pictures
+constexpr double kFits_px = 0.7;  // a median of the corners' distances that is no cause to complain
 /// Smaller ones are nobody's mistake.
 constexpr double kLeastFocal = 0.006, kLeastPoint_px = 0.3, kLeastSize = 0.008;
 
@@ -34,8 +40,8 @@ struct Explanation {
   double sigmas = 0;
 };
 
-template <int first, int size, typename Matrix4, typename Vector4>
-Explanation explain(const Matrix4& H, const Vector4& g, double chi2, double dof) {
+template <int first, int size>
+Explanation explain(const Eigen::Matrix4d& H, const Eigen::Vector4d& g, double chi2, double dof) {
   const Eigen::Matrix<double, size, size> A = H.template block<size, size>(first, first);
   const Eigen::Matrix<double, size, 1> b = g.template segment<size>(first);
   const Eigen::Matrix<double, size, 1> x = A.inverse() * b;
@@ -47,35 +53,35 @@ Explanation explain(const Matrix4& H, const Vector4& g, double chi2, double dof)
   return result;
 }
 
-}  // namespace
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
-void StatedCheck::add(const EyeCamera& eye, const TagLayout& layout,
-                      std::span<const HeadSight> sights, const HeadFit& fit, std::size_t camera) {
-  const Eigen::Isometry3d& here = fit.motion.T_world_head;
-  if (before_ && (before_->translation() - here.translation()).norm() < kFurther_m &&
-      rotationLog(before_->linear().transpose() * here.linear()).norm() < kTurnedFurther) {
-    return;
-  }
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// Normal equations of one picture: its pose (A, a), what was stated (C, c), both (B).
+struct Sums {
   Matrix6d A = Matrix6d::Zero();
-  Eigen::Matrix<double, 6, kSize> B = Eigen::Matrix<double, 6, kSize>::Zero();
-  Matrix4 C = Matrix4::Zero();
-  Eigen::Matrix<double, 6, 1> a = Eigen::Matrix<double, 6, 1>::Zero();
-  Vector4 c = Vector4::Zero();
+  Eigen::Matrix<double, 6, 4> B = Eigen::Matrix<double, 6, 4>::Zero();
+  Eigen::Matrix4d C = Eigen::Matrix4d::Zero();
+  Vector6 a = Vector6::Zero();
+  Eigen::Vector4d c = Eigen::Vector4d::Zero();
   double chi2 = 0;
   int count = 0;
-  const Vector2d principal = eye.model.K().topRightCorner<2, 1>();
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    const HeadSight& sight = sights[i];
-    if (sight.camera != camera || !fit.used[i]) continue;
+
+  void add(const EyeCamera& eye, const MappedTag& tag, const HeadSight& sight,
+           const HeadMotion& head, double weight) {
     HeadJacobian J;
-    const auto px = projectAt(eye, fit.motion, sight.p_world, sight.delay, &J);
-    if (!px) continue;
-    const Vector3d centre = layout.find(sight.tag)->T_world_tag.translation();
+    const auto px = projectAt(eye, head, sight.p_world, sight.delay, &J);
+    if (!px) return;
+    const Vector2d principal = eye.model.K().topRightCorner<2, 1>();
     // A point that moves is a head that moves the other way.
-    const Vector3d outward = here.linear().transpose() * (sight.p_world - centre);
-    Eigen::Matrix<double, 2, kSize> J_stated;
+    const Vector3d outward =
+        head.T_world_head.linear().transpose() * (sight.p_world - tag.T_world_tag.translation());
+    Eigen::Matrix<double, 2, 4> J_stated;
     J_stated << *px - principal, Eigen::Matrix2d::Identity(), -J.leftCols<3>() * outward;
-    const double weight = 1 / (sight.sigma_px * sight.sigma_px);
     const Vector2d r = sight.px - *px;
     const auto J_pose = J.leftCols<6>();
     A += weight * J_pose.transpose() * J_pose;
@@ -86,17 +92,70 @@ void StatedCheck::add(const EyeCamera& eye, const TagLayout& layout,
     chi2 += weight * r.squaredNorm();
     ++count;
   }
-  if (count < 8) return;
-  const Eigen::LLT<Matrix6d> solver(A);
+};
+
+}  // namespace
+
+void StatedCheck::add(const EyeCamera& eye, const TagLayout& layout,
+                      std::span<const HeadSight> sights, const HeadMotion& head,
+                      std::size_t camera) {
+  std::vector<HeadSight> own;
+  std::set<int> tags;
+  for (const HeadSight& sight : sights) {
+    if (sight.camera != camera) continue;
+    own.push_back(sight);
+    own.back().camera = 0;  // the only one that learn() knows
+    tags.insert(sight.tag);
+  }
+  if (tags.size() < kLeastTags) return;
+  learn(eye, layout, own, head);
+}
+
+void StatedCheck::learn(const EyeCamera& eye, const TagLayout& layout,
+                        std::span<const HeadSight> sights, const HeadMotion& head) {
+  const std::vector<double> distances = headDistances(std::span(&eye, 1), sights, head);
+  const double median = medianOf(distances);
+  if (!std::isfinite(median)) return;
+  medians_px_.push_back(median);
+  if (medians_px_.size() > kRemembered) medians_px_.pop_front();
+  const Eigen::Isometry3d& here = head.T_world_head;
+  if (before_ && (before_->translation() - here.translation()).norm() < kFurther_m &&
+      rotationLog(before_->linear().transpose() * here.linear()).norm() < kTurnedFurther) {
+    return;
+  }
   before_ = here;
-  H_ = kForget * H_ + C - B.transpose() * solver.solve(B);
-  g_ = kForget * g_ + c - B.transpose() * solver.solve(a);
-  chi2_ = kForget * chi2_ + chi2 - a.dot(solver.solve(a));
-  dof_ = kForget * dof_ + 2 * count - 6;
+  Sums sums;
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    const HeadSight& sight = sights[i];
+    const double usual = 3 * std::max(median, sight.sigma_px);
+    const double weight =
+        1 / (sight.sigma_px * sight.sigma_px) / (1 + std::pow(distances[i] / usual, 2));
+    sums.add(eye, *layout.find(sight.tag), sight, head, weight);
+  }
+  const Eigen::LLT<Matrix6d> solver(sums.A);
+  H_ = kForget * H_ + sums.C - sums.B.transpose() * solver.solve(sums.B);
+  g_ = kForget * g_ + sums.c - sums.B.transpose() * solver.solve(sums.a);
+  chi2_ = kForget * chi2_ + sums.chi2 - sums.a.dot(solver.solve(sums.a));
+  dof_ = kForget * dof_ + 2 * sums.count - 6;
   pictures_ = kForget * pictures_ + 1;
 }
 
 std::optional<std::string> StatedCheck::named() const {
+  const auto explanation = explained();
+  return explanation ? explanation : unexplained();
+}
+
+std::optional<std::string> StatedCheck::unexplained() const {
+  if (medians_px_.size() < kRemembered) return std::nullopt;
+  const double usual = medianOf({medians_px_.begin(), medians_px_.end()});
+  if (usual < kFits_px) return std::nullopt;
+  return statement(
+      "corners in the picture of %s lie %.1f px off: its lens, its readout or the layout is not as "
+      "stated",
+      camera_.c_str(), usual);
+}
+
+std::optional<std::string> StatedCheck::explained() const {
   if (pictures_ < kLeastPlaces) return std::nullopt;
   const double all = g_.dot(H_.llt().solve(g_));
   const Explanation focal = explain<0, 1>(H_, g_, chi2_, dof_);
@@ -108,12 +167,12 @@ std::optional<std::string> StatedCheck::named() const {
   };
   const double f = focal.value.x(), s = size.value.x();
   if (stands(focal, std::abs(f), kLeastFocal)) {
-    return statement("focal length of the %s camera looks %.1f %% %s than stated", camera_.c_str(),
+    return statement("focal length of %s looks %.1f %% %s than stated", camera_.c_str(),
                      100 * std::abs(std::expm1(f)), f > 0 ? "longer" : "shorter");
   }
   if (stands(point, point.value.norm(), kLeastPoint_px)) {
     return statement(
-        "principal point of the %s camera looks %.1f, %.1f px off: are pixels counted from their "
+        "principal point of %s looks %.1f, %.1f px off: are pixels counted from their "
         "centres?",
         camera_.c_str(), point.value.x(), point.value.y());
   }

@@ -17,6 +17,9 @@ using Eigen::Vector2d;
 constexpr double kMaxShift_px = 2.5;
 /// Cells that are less deep, as seen aslant, leave no room for an edge.
 constexpr double kLeastCell_px = 2.4;
+// Blur (standard deviation) beyond which motion has smeared a side, and how far the grey levels of
+// its neighbours are from its own, part of the contrast.
+constexpr double kSmeared_px = 1.1, kLevelsDiffer = 0.03;
 /// What is left of a corner's error where noise averages out: response of pixels, rounding to
 /// bytes.
 constexpr double kFloor_px = 0.004;
@@ -62,21 +65,57 @@ double neighboursPull(double cell, double half_width, double blur) {
   return 0.35 * tail * std::pow(2 / half_width, 2);
 }
 
+/// One side. `known`: grey levels to take instead of the side's own.
+std::optional<EdgeFit> fitSide(const ImageView& grey, const Chord& chord, const Bow& bow,
+                               const Surroundings& around,
+                               const std::optional<GreyLevels>& known = {}) {
+  EdgeWindow window;
+  window.half_width = std::clamp(around.cell - 1.0, 2.0, 3.5);
+  window.margin = 2 + window.half_width * around.reach;
+  window.known = known;
+  auto side = fitEdge(grey, chord, bow, window);
+  if (!side) return std::nullopt;
+  const double pull = neighboursPull(around.cell, window.half_width, side->blur);
+  side->covariance(0, 0) += pull * pull;
+  return side;
+}
+
+/// Of the sides that nothing has smeared; nothing where there is none.
+std::optional<GreyLevels> sharpLevels(const std::array<EdgeFit, 4>& sides) {
+  GreyLevels sum{0, 0};
+  int count = 0;
+  for (const EdgeFit& side : sides) {
+    if (side.blur > kSmeared_px) continue;
+    sum.behind += side.levels.behind;
+    sum.ahead += side.levels.ahead;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return GreyLevels{sum.behind / count, sum.ahead / count};
+}
+
 std::optional<std::array<EdgeFit, 4>> fitSides(const ImageView& grey,
                                                const std::array<Vector2d, 4>& corners,
                                                const CornerRefinement& options) {
   std::array<EdgeFit, 4> sides;
-  for (std::size_t i = 0; i < 4; ++i) {
+  const auto fit = [&](std::size_t i, const std::optional<GreyLevels>& known) {
     const Chord chord(corners[i], corners[(i + 1) % 4]);
-    const auto [cell, lean] = surroundings(corners, i, options.cells);
-    if (2 * chord.half < options.least_side_px || cell < kLeastCell_px) return std::nullopt;
-    EdgeWindow window;
-    window.half_width = std::clamp(cell - 1.0, 2.0, 3.5);
-    window.margin = 2 + window.half_width * lean;
-    const auto fit = fitEdge(grey, chord, bowOf(options.camera, chord), window);
-    if (!fit) return std::nullopt;
-    sides[i] = *fit;
-    sides[i].covariance(0, 0) += std::pow(neighboursPull(cell, window.half_width, fit->blur), 2);
+    const Surroundings around = surroundings(corners, i, options.cells);
+    if (2 * chord.half < options.least_side_px || around.cell < kLeastCell_px) return false;
+    const auto side = fitSide(grey, chord, bowOf(options.camera, chord), around, known);
+    if (side) sides[i] = *side;
+    return side.has_value();
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!fit(i, std::nullopt)) return std::nullopt;
+  }
+  // A side that motion has smeared over a cell shows neither of its grey levels, and without them
+  // no place; the sides along the motion show both.
+  const std::optional<GreyLevels> known = sharpLevels(sides);
+  for (std::size_t i = 0; known && i < 4; ++i) {
+    if (sides[i].blur <= kSmeared_px) continue;
+    if (!fit(i, known)) return std::nullopt;
+    sides[i].covariance(0, 0) += std::pow(kLevelsDiffer * sides[i].blur, 2);
   }
   return sides;
 }

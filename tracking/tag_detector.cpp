@@ -7,10 +7,12 @@
 #include <apriltag/tagStandard41h12.h>
 
 #include <algorithm>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "tracking/tag_corners.hpp"
+#include "tracking/tag_print.hpp"
 
 namespace slamscope::tracking {
 struct TagFamily {
@@ -74,6 +76,33 @@ std::vector<PixelRegion> apart(std::span<const PixelRegion> regions, int width, 
   return result;
 }
 
+/// About a square and the paper around it.
+PixelRegion regionAround(const std::array<Eigen::Vector2d, 4>& corners_px, double margin_px) {
+  Eigen::Array2d low = corners_px[0], high = corners_px[0];
+  for (const Eigen::Vector2d& corner : corners_px) {
+    low = low.min(corner.array());
+    high = high.max(corner.array());
+  }
+  const double reach = 0.125 * (high - low).maxCoeff() + margin_px;
+  return {static_cast<int>(low.x() - reach), static_cast<int>(low.y() - reach),
+          static_cast<int>(high.x() + reach) + 1, static_cast<int>(high.y() + reach) + 1};
+}
+
+PixelRegion wholeOf(const ImageView& image) {
+  return {0, 0, image.width, image.height};
+}
+
+/// One and the same tag, found twice.
+bool sameSquare(const TagDetection& a, const TagDetection& b) {
+  return a.id == b.id && (a.corners_px[0] - b.corners_px[0]).norm() < 5 &&
+         (a.corners_px[2] - b.corners_px[2]).norm() < 5;
+}
+
+void sortById(std::vector<TagDetection>& tags) {
+  std::stable_sort(tags.begin(), tags.end(),
+                   [](const TagDetection& a, const TagDetection& b) { return a.id < b.id; });
+}
+
 double shortestSide(const std::array<Eigen::Vector2d, 4>& corners) {
   double side = 1e9;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -109,14 +138,23 @@ struct TagDetector::Impl {
   ImageView toGrey(const ImageView& image);
   /// Tags of one part of the picture (grey), in the whole picture's pixels.
   void search(const ImageView& grey, const PixelRegion& region, std::vector<TagDetection>& tags);
+  /// Tags of several; `coarser`: than the options say.
+  void search(const ImageView& grey, std::span<const PixelRegion> regions, double coarser,
+              std::vector<TagDetection>& tags);
   TagDetection convert(const apriltag_detection_t& found, const ImageView& grey,
                        const Eigen::Vector2d& offset) const;
+  /// The tag where it is expected; nothing where it isn't, or isn't that tag.
+  std::optional<TagDetection> followOne(const ImageView& grey, const ExpectedTag& expected);
+  [[nodiscard]] std::optional<RefinedCorners> refined(
+      const ImageView& grey, const std::array<Eigen::Vector2d, 4>& corners_px) const;
+  const TagCells& printOf(int id);
 
   TagDetectorOptions options;
   const TagFamily& kind;
   apriltag_family_t* family;
   apriltag_detector_t* detector;
   cv::Mat grey_picture;
+  std::map<int, TagCells> prints;  // of tags followed so far
 };
 
 ImageView TagDetector::Impl::toGrey(const ImageView& image) {
@@ -146,16 +184,41 @@ TagDetection TagDetector::Impl::convert(const apriltag_detection_t& found, const
     tag.corners_px[i] = offset.array() + Eigen::Array2d(found.p[i][0], found.p[i][1]) - kHalfPixel;
   }
   tag.sigma_px.fill(unrefinedSigma(shortestSide(tag.corners_px), detector->quad_decimate));
-  if (!options.refine) return tag;
-  CornerRefinement refinement;
-  refinement.cells = family->width_at_border;
-  refinement.camera = options.camera ? &*options.camera : nullptr;
-  if (const auto refined = refineCorners(grey, tag.corners_px, refinement)) {
-    tag.corners_px = refined->px;
-    tag.sigma_px = refined->sigma_px;
+  if (const auto better = refined(grey, tag.corners_px)) {
+    tag.corners_px = better->px;
+    tag.sigma_px = better->sigma_px;
     tag.refined = true;
   }
   return tag;
+}
+
+std::optional<RefinedCorners> TagDetector::Impl::refined(
+    const ImageView& grey, const std::array<Eigen::Vector2d, 4>& corners_px) const {
+  if (!options.refine) return std::nullopt;
+  CornerRefinement refinement;
+  refinement.cells = family->width_at_border;
+  refinement.camera = options.camera ? &*options.camera : nullptr;
+  return refineCorners(grey, corners_px, refinement);
+}
+
+const TagCells& TagDetector::Impl::printOf(int id) {
+  const auto known = prints.find(id);
+  if (known != prints.end()) return known->second;
+  return prints.emplace(id, tagCells(options.family, id)).first->second;
+}
+
+std::optional<TagDetection> TagDetector::Impl::followOne(const ImageView& grey,
+                                                         const ExpectedTag& expected) {
+  const auto corners = refined(grey, expected.corners_px);
+  if (!corners) return std::nullopt;
+  const PrintMatch match = comparePrint(grey, corners->px, printOf(expected.id));
+  if (match.wrong > options.max_hamming || match.margin < options.min_margin) return std::nullopt;
+  return TagDetection{.id = expected.id,
+                      .corners_px = corners->px,
+                      .sigma_px = corners->sigma_px,
+                      .margin = match.margin,
+                      .hamming = match.wrong,
+                      .refined = true};
 }
 
 TagDetector::TagDetector(TagDetectorOptions options)
@@ -181,23 +244,54 @@ void TagDetector::Impl::search(const ImageView& grey, const PixelRegion& region,
   apriltag_detections_destroy(found);
 }
 
+void TagDetector::Impl::search(const ImageView& grey, std::span<const PixelRegion> regions,
+                               double coarser, std::vector<TagDetection>& tags) {
+  const double automatic = grey.width >= 1280 ? 2 : 1;
+  detector->quad_decimate = static_cast<float>(coarser * options.quad_decimate.value_or(automatic));
+  for (const PixelRegion& region : apart(regions, grey.width, grey.height)) {
+    search(grey, region, tags);
+  }
+}
+
 std::vector<TagDetection> TagDetector::detect(const ImageView& image) {
-  const PixelRegion whole{0, 0, image.width, image.height};
+  const PixelRegion whole = wholeOf(image);
   return detect(image, std::span(&whole, 1));
 }
 
 std::vector<TagDetection> TagDetector::detect(const ImageView& image,
                                               std::span<const PixelRegion> regions) {
-  const ImageView grey = impl_->toGrey(image);
-  const double automatic = image.width >= 1280 ? 2 : 1;
-  impl_->detector->quad_decimate =
-      static_cast<float>(impl_->options.quad_decimate.value_or(automatic));
   std::vector<TagDetection> tags;
-  for (const PixelRegion& region : apart(regions, image.width, image.height)) {
-    impl_->search(grey, region, tags);
+  impl_->search(impl_->toGrey(image), regions, 1, tags);
+  sortById(tags);
+  return tags;
+}
+
+std::vector<TagDetection> TagDetector::detectCoarsely(const ImageView& image) {
+  return follow(image, {}, {.whole_picture = true});
+}
+
+std::vector<TagDetection> TagDetector::follow(const ImageView& image,
+                                              std::span<const ExpectedTag> expected,
+                                              const FollowOptions& how) {
+  const ImageView grey = impl_->toGrey(image);
+  std::vector<TagDetection> tags, searched;
+  std::vector<PixelRegion> regions(how.also.begin(), how.also.end());
+  for (const ExpectedTag& one : expected) {
+    if (auto tag = impl_->followOne(grey, one)) {
+      tags.push_back(std::move(*tag));
+    } else {
+      regions.push_back(regionAround(one.corners_px, how.margin_px));
+    }
   }
-  std::stable_sort(tags.begin(), tags.end(),
-                   [](const TagDetection& a, const TagDetection& b) { return a.id < b.id; });
+  impl_->search(grey, regions, 1, searched);
+  const PixelRegion whole = wholeOf(image);
+  if (how.whole_picture) impl_->search(grey, std::span(&whole, 1), 2, searched);
+  for (TagDetection& tag : searched) {
+    const bool known = std::any_of(tags.begin(), tags.end(),
+                                   [&](const auto& one) { return sameSquare(one, tag); });
+    if (!known) tags.push_back(std::move(tag));
+  }
+  sortById(tags);
   return tags;
 }
 

@@ -160,6 +160,16 @@ EdgeEquations linearise(const std::vector<Sample>& samples, const Vector7d& x, d
   return result;
 }
 
+/// Takes the grey levels out of what is solved for.
+void holdLevels(EdgeEquations& at) {
+  for (int k = 2; k < 6; ++k) {
+    at.H.row(k).setZero();
+    at.H.col(k).setZero();
+    at.H(k, k) = 1;
+    at.g[k] = 0;
+  }
+}
+
 }  // namespace
 
 double EdgeFit::varianceAt(const Vector2d& p) const {
@@ -179,10 +189,12 @@ std::optional<EdgeFit> fitEdge(const ImageView& grey, const Chord& chord, const 
   const double pixel_variance = narrow * narrow / 12;
   const double least_s = std::sqrt(pixel_variance + kLeastBlur * kLeastBlur);
   Vector7d x = guess(*samples, window);
+  if (window.known) x.segment<4>(2) << window.known->behind, 0, window.known->ahead, 0;
   EdgeEquations at;
   for (int i = 0; i < kEdgeIterations; ++i) {
     if (std::abs(x[4] - x[2]) < kLeastContrast) return std::nullopt;
     at = linearise(*samples, x, box, i < 4 ? 1.0 : kForeign);
+    if (window.known) holdLevels(at);
     Matrix7d damped = at.H;
     damped.diagonal() *= 1 + 1e-6;
     damped(6, 6) *= 1.01;
@@ -201,6 +213,7 @@ std::optional<EdgeFit> fitEdge(const ImageView& grey, const Chord& chord, const 
   fit.point = chord.middle + x[0] * chord.normal;
   fit.normal = (chord.normal - x[1] / chord.half * chord.direction).normalized();
   fit.blur = std::sqrt(std::max(0.0, x[6] * x[6] - pixel_variance));
+  fit.levels = {x[2], x[4]};
   fit.contrast = x[4] - x[2];
   fit.half = chord.half;
   // Blur, symmetric about the edge, tells nothing of its place; without any it can't be told

@@ -34,15 +34,22 @@ struct Bow {
   }
 };
 
-/// The pixels that take part.
+/// On both sides of an edge; ahead is where its normal points.
+struct GreyLevels {
+  double behind = 0, ahead = 0;
+};
+
+/// The pixels that take part, and what is known of them.
 struct EdgeWindow {
-  double half_width = 3;  ///< to both sides of the edge, px
-  double margin = 2;      ///< left out at each end, px
+  double half_width = 3;                           ///< to both sides of the edge, px
+  double margin = 2;                               ///< left out at each end, px
+  std::optional<GreyLevels> known = std::nullopt;  ///< instead of being fitted
 };
 
 struct EdgeFit {
   Eigen::Vector2d point, normal;  ///< of the line that passes the ends of the side (bow taken off)
   double blur = 0;                ///< standard deviation of the point spread, px
+  GreyLevels levels;              ///< in its middle
   double contrast = 0;            ///< grey levels, across the edge along the normal
   double half = 0;                ///< px
   Eigen::Matrix2d covariance;     ///< of offset (px) and slope (px at the end of the side)

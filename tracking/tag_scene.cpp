@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tracking/robust_descent.hpp"
+
 namespace slamscope::tracking {
 namespace {
 
@@ -13,11 +15,7 @@ using Eigen::Isometry3d, Eigen::Vector2d, Eigen::Vector3d;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix29d = Eigen::Matrix<double, 2, 9>;
 
-constexpr int kIterations = 40;
-constexpr int kRounds = 4;
 constexpr double kRoughly = 1e-3, kExactly = 1e-10;  // change of cost at rest
-constexpr double kFullWeight = 4;                    // sigmas
-constexpr double kNoLimit = 1e9;                     // scale of errors at which none is an outlier
 /// Whatever the sigmas say, a corner is no outlier below it.
 constexpr double kLeastOutlier_px = 0.5;
 
@@ -32,7 +30,7 @@ Isometry3d turned(const Isometry3d& T, const Vector3d& rho, const Vector3d& phi)
   return moved;
 }
 
-ScenePose moved(const ScenePose& pose, const Vector9d& step) {
+ScenePose perturbed(const ScenePose& pose, const Vector9d& step) {
   return {turned(pose.T_camera_world, step.head<3>(), step.segment<3>(3)),
           turned(pose.T_world_map, {step[6], step[7], 0}, {0, 0, step[8]})};
 }
@@ -57,22 +55,6 @@ std::optional<Vector2d> predict(const CameraModel& camera, const CornerSight& co
   return px;
 }
 
-struct Linearised {
-  Matrix9d H = Matrix9d::Zero();
-  Vector9d g = Vector9d::Zero();
-  double cost = 0;
-  bool valid = true;
-};
-
-/// Of the smaller third of the distances: up to nearly two thirds of the corners may be wrong.
-constexpr double kScaleQuantile = 0.35;
-
-double quantile(std::vector<double> values, double part) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * double(values.size()));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 class Solver {
  public:
   Solver(const CameraModel& camera, const SceneProblem& problem)
@@ -82,17 +64,13 @@ class Solver {
     if (problem.solve_map) free_.tail<3>().setOnes();
   }
 
-  /// How much larger the errors are than the sigmas say, by the same quantile of a 2D unit
-  /// Gaussian.
+  /// How much larger the errors are than the sigmas say.
   [[nodiscard]] double scale(const ScenePose& pose) const {
-    static const double unit = std::sqrt(-2 * std::log(1 - kScaleQuantile));
-    return std::max(
-        1.0, quantile(sceneDistances(camera_, problem_.corners, pose), kScaleQuantile) / unit);
+    return errorScale(sceneDistances(camera_, problem_.corners, pose));
   }
 
-  [[nodiscard]] Linearised linearise(const ScenePose& pose, double scale) const {
-    Linearised result;
-    const double limit = kFullWeight * scale;
+  [[nodiscard]] NormalEquations<9> linearise(const ScenePose& pose, double scale) const {
+    NormalEquations<9> result;
     for (std::size_t i = 0; i < used_.size(); ++i) {
       if (!used_[i]) continue;
       const CornerSight& corner = problem_.corners[i];
@@ -104,10 +82,8 @@ class Solver {
       }
       const Vector2d r = (corner.px - *px) / corner.sigma_px;
       J = (J / corner.sigma_px * free_.asDiagonal()).eval();
-      // Full weight within the limit, a logarithm's beyond it.
-      const double e2 = r.squaredNorm(), l2 = limit * limit;
-      const double weight = e2 <= l2 ? 1 : l2 / e2;
-      result.cost += e2 <= l2 ? e2 : l2 * (1 + std::log(e2 / l2));
+      const auto [weight, cost] = robustTerm(r.squaredNorm(), scale);
+      result.cost += cost;
       result.H += weight * J.transpose() * J;
       result.g += weight * J.transpose() * r;
     }
@@ -118,45 +94,22 @@ class Solver {
     return result;
   }
 
-  /// Levenberg's method from `pose`; nothing where it can't start.
-  [[nodiscard]] std::optional<ScenePose> descend(ScenePose pose, double scale,
-                                                 double tolerance) const {
-    double damping = 1e-6;
-    Linearised at = linearise(pose, scale);
-    if (!at.valid) return std::nullopt;
-    for (int i = 0; i < kIterations; ++i) {
-      Matrix9d H = at.H;
-      H.diagonal() *= 1 + damping;
-      const Vector9d step = H.ldlt().solve(at.g);
-      if (!step.allFinite()) return std::nullopt;
-      const ScenePose candidate = moved(pose, step);
-      const Linearised next = linearise(candidate, scale);
-      if (next.valid && next.cost <= at.cost) {
-        const bool at_rest = at.cost - next.cost < tolerance * (1 + at.cost);
-        pose = candidate;
-        at = next;
-        damping = std::max(1e-9, damping * 0.1);
-        if (at_rest) break;
-      } else if ((damping *= 10) > 1e6) {
-        break;
-      }
-    }
-    return pose;
+  [[nodiscard]] std::optional<ScenePose> descendAt(const ScenePose& pose, double scale,
+                                                   double tolerance) const {
+    return descend(
+        pose, [&](const ScenePose& at) { return linearise(at, scale); }, perturbed, tolerance);
   }
 
   [[nodiscard]] std::optional<SceneFit> solve(ScenePose pose) {
     if (used_.empty()) return std::nullopt;
-    // Ever narrower, so that outliers which share in a first compromise lose their hold on it.
-    double s = problem_.robust ? scale(pose) : kNoLimit;
-    for (int round = 0; problem_.robust && round < kRounds; ++round) {
-      const auto better = descend(pose, s, kRoughly);
-      if (!better) return std::nullopt;
-      pose = *better;
-      const double narrower = std::max(1.0, std::min(s / 3, scale(pose)));
-      if (narrower == s) break;
-      s = narrower;
+    if (problem_.robust) {
+      const auto narrowed = narrowDown(
+          pose, [&](const ScenePose& at) { return scale(at); },
+          [&](const ScenePose& at, double s) { return descendAt(at, s, kRoughly); });
+      if (!narrowed) return std::nullopt;
+      pose = *narrowed;
     }
-    s = problem_.robust ? scale(pose) : kNoLimit;
+    const double s = problem_.robust ? scale(pose) : kNoOutliers;
     const auto all = sceneDistances(camera_, problem_.corners, pose);
     for (std::size_t i = 0; i < used_.size(); ++i) {
       used_[i] = all[i] < problem_.gate_sigmas * s ||
@@ -165,7 +118,7 @@ class Solver {
     const auto count = std::count(used_.begin(), used_.end(), true);
     if (freedom(static_cast<int>(count)) < 0) return std::nullopt;
     // Without the outliers, all weights are one.
-    const auto last = descend(pose, kNoLimit, kExactly);
+    const auto last = descendAt(pose, kNoOutliers, kExactly);
     if (!last) return std::nullopt;
     return report(*last, static_cast<int>(count));
   }
@@ -180,7 +133,7 @@ class Solver {
     return 2 * corners + (prior() ? 6 : 0) - static_cast<int>(free_.sum());
   }
 
-  void addPrior(const ScenePose& pose, Linearised& result) const {
+  void addPrior(const ScenePose& pose, NormalEquations<9>& result) const {
     if (!prior()) return;
     const Isometry3d off = problem_.prior_T_camera_world->inverse() * pose.T_camera_world;
     const Eigen::AngleAxisd turn(off.linear());
@@ -209,7 +162,7 @@ class Solver {
     const double dof = std::max(1, freedom(count));
     const double excess = chi2 / dof > 1 + 3 * std::sqrt(2 / dof) ? chi2 / dof : 1;
     fit.covariance =
-        excess * (free_ * free_.transpose()).cwiseProduct(linearise(pose, kNoLimit).H.inverse());
+        excess * (free_ * free_.transpose()).cwiseProduct(linearise(pose, kNoOutliers).H.inverse());
     return fit;
   }
 

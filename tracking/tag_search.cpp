@@ -8,7 +8,8 @@ namespace slamscope::tracking {
 namespace {
 
 constexpr double kSeenFromFront = 0.1;  // cosine to the tag's normal; more aslant it isn't expected
-constexpr int kMirrorAfter = 10;        // pictures without a tag
+constexpr std::size_t kEnough = 3;  // tags of the layout, seen coarsely: no closer look is taken
+constexpr int kMirrorAfter = 10;    // pictures without a tag
 
 TagDetectorOptions detectorOf(const TagSearchOptions& options, const CameraModel& camera) {
   TagDetectorOptions result = options.detector;
@@ -33,65 +34,74 @@ std::vector<std::uint8_t> mirrorImage(const ImageView& picture) {
 
 }  // namespace
 
-TagSearch::TagSearch(const CameraModel& camera, TagLayout layout, TagSearchOptions options)
-    : camera_(camera),
+TagSearch::TagSearch(EyeCamera eye, TagLayout layout, TagSearchOptions options)
+    : eye_(std::move(eye)),
       layout_(std::move(layout)),
       options_(std::move(options)),
-      detector_(detectorOf(options_, camera_)) {}
+      detector_(detectorOf(options_, eye_.model)) {}
 
-/// Squares about the tags that the camera should see from where it is believed to be.
-std::vector<PixelRegion> TagSearch::regions(const Eigen::Isometry3d& T_camera_world,
-                                            const std::vector<Place>& also, int& expected) const {
-  std::vector<PixelRegion> result;
-  const auto add = [&](const Eigen::Vector2d& centre, double half) {
-    const double reach = 1.25 * half + options_.margin_px;  // paper around the black square
-    result.push_back({static_cast<int>(centre.x() - reach), static_cast<int>(centre.y() - reach),
-                      static_cast<int>(centre.x() + reach) + 1,
-                      static_cast<int>(centre.y() + reach) + 1});
+std::vector<ExpectedTag> TagSearch::expected(const HeadMotion& head) const {
+  const CameraInfo& info = eye_.model.info();
+  const auto inside = [&](const Eigen::Vector2d& px) {
+    return px.x() >= 0 && px.y() >= 0 && px.x() <= info.width - 1 && px.y() <= info.height - 1;
   };
-  const Eigen::Vector3d eye = T_camera_world.inverse().translation();
-  expected = 0;
+  const Eigen::Vector3d camera = (head.T_world_head * eye_.T_head_camera).translation();
+  std::vector<ExpectedTag> result;
   for (const MappedTag& tag : layout_.tags) {
-    const Eigen::Vector3d to_eye = eye - tag.T_world_tag.translation();
-    if (tag.T_world_tag.linear().col(2).dot(to_eye.normalized()) < kSeenFromFront) continue;
-    const auto centre = camera_.project(T_camera_world * tag.T_world_tag.translation());
-    if (!centre) continue;
-    double half = 0;
-    for (const Eigen::Vector3d& p_tag : tagCorners(tag.size_m)) {
-      const auto corner = camera_.project(T_camera_world * (tag.T_world_tag * p_tag));
-      half = corner ? std::max(half, (*corner - *centre).cwiseAbs().maxCoeff()) : half;
+    const Eigen::Vector3d to_camera = camera - tag.T_world_tag.translation();
+    if (tag.T_world_tag.linear().col(2).dot(to_camera.normalized()) < kSeenFromFront) continue;
+    ExpectedTag one{tag.id, {}};
+    const auto p_tag = tagCorners(tag.size_m);
+    bool whole = true;
+    for (std::size_t i = 0; whole && i < 4; ++i) {
+      const auto px = projectRolling(eye_, head, tag.T_world_tag * p_tag[i]);
+      whole = px && inside(*px);
+      if (whole) one.corners_px[i] = *px;
     }
-    const CameraInfo& info = camera_.info();
-    const bool inside = centre->x() > half && centre->y() > half &&
-                        centre->x() < info.width - half && centre->y() < info.height - half;
-    if (inside) ++expected;
-    if (centre->x() > -half && centre->y() > -half && centre->x() < info.width + half &&
-        centre->y() < info.height + half) {
-      add(*centre, half);
-    }
+    if (whole) result.push_back(one);
   }
-  for (const Place& place : also) add(place.px, place.half_px);
   return result;
 }
 
+std::size_t TagSearch::mappedOf(const std::vector<TagDetection>& tags) const {
+  return static_cast<std::size_t>(
+      std::count_if(tags.begin(), tags.end(),
+                    [this](const TagDetection& tag) { return layout_.find(tag.id) != nullptr; }));
+}
+
+std::vector<TagDetection> TagSearch::follow(const ImageView& picture, const HeadMotion& head,
+                                            const std::vector<Place>& also, bool whole_too) {
+  std::vector<PixelRegion> regions;
+  for (const Place& place : also) {
+    const double reach = 1.25 * place.half_px + options_.margin_px;  // paper around the square
+    const Eigen::Array2i low = (place.px.array() - reach).cast<int>(),
+                         high = (place.px.array() + reach).cast<int>() + 1;
+    regions.push_back({low.x(), low.y(), high.x(), high.y()});
+  }
+  const std::vector<ExpectedTag> should_be_there = expected(head);
+  std::vector<TagDetection> tags = detector_.follow(
+      picture, should_be_there,
+      {.margin_px = options_.margin_px, .also = regions, .whole_picture = whole_too});
+  const std::size_t found = mappedOf(tags);
+  if (found == 0 || 2 * found < should_be_there.size()) tags.clear();
+  return tags;
+}
+
 std::vector<TagDetection> TagSearch::find(const ImageView& picture,
-                                          const std::optional<Eigen::Isometry3d>& T_camera_world,
-                                          const std::vector<Place>& also) {
-  whole_ = !T_camera_world || ++since_whole_ >= options_.whole_every;
+                                          const std::optional<HeadMotion>& head,
+                                          const std::vector<Place>& also, bool closely) {
+  const bool due = ++since_whole_ >= options_.whole_every;
   std::vector<TagDetection> tags;
-  if (!whole_) {
-    int expected = 0;
-    tags = detector_.detect(picture, regions(*T_camera_world, also, expected));
-    const auto found = std::count_if(tags.begin(), tags.end(), [&](const TagDetection& tag) {
-      return layout_.find(tag.id) != nullptr;
-    });
-    whole_ = found == 0 || 2 * found < expected;
+  if (head && !(due && closely)) tags = follow(picture, *head, also, due);
+  whole_ = due || tags.empty();
+  if (whole_) since_whole_ = 0;
+  if (!tags.empty()) {
+    lookIntoTheMirror(picture, true);
+    return tags;
   }
-  if (whole_) {
-    since_whole_ = 0;
-    tags = detector_.detect(picture);
-    lookIntoTheMirror(picture, !tags.empty());
-  }
+  if (!closely) tags = detector_.detectCoarsely(picture);
+  if (mappedOf(tags) < std::min(kEnough, layout_.tags.size())) tags = detector_.detect(picture);
+  lookIntoTheMirror(picture, !tags.empty());
   return tags;
 }
 

@@ -279,6 +279,7 @@ std::chrono::nanoseconds V4l2Source::stamp(const v4l2_buffer& buffer) const {
 }
 
 std::optional<Frame> V4l2Source::decode(const v4l2_buffer& buffer) const {
+  if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) return std::nullopt;  // as the driver knows
   const std::span<std::uint8_t> bytes = mappings_.at(buffer.index).bytes();
   const cv::Mat bgr = toBgr(bytes.first(std::min<std::size_t>(buffer.bytesused, bytes.size())));
   if (bgr.cols != options_.width || bgr.rows != options_.height) return std::nullopt;

@@ -99,7 +99,12 @@ void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
       ->check(CLI::PositiveNumber)
       ->group(group);
   verb.add_flag("--rings", rest.covariance_rings,
-                "k-sigma ellipses of robot and features on the floor");
+                "k-sigma ellipses of robot and features on the floor")
+      ->group(group);
+  verb.add_flag("--own-error", rest.own_error,
+                "k-sigma ellipses of the registration's own error at each feature: what lies "
+                "further off than that is SLAM's")
+      ->group(group);
   verb.add_option("--opacity", rest.opacity, "of everything drawn, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
       ->group(group);

@@ -6,41 +6,13 @@
 
 #include "engine/render/offscreen.hpp"
 #include "engine/scene/pair_glyphs.hpp"
+#include "tests/bench/ellipsoid_floor.hpp"
 
 namespace slamscope::engine {
 namespace {
 
 constexpr Pinhole kCamera = {
     .width = 1280, .height = 720, .fx = 900.0, .fy = 900.0, .cx = 639.5, .cy = 359.5};
-
-/// From 3 m before and 2.6 m above the middle of the floor.
-View overhead() {
-  const Eigen::Vector3d eye(0.0, -3.0, 2.6);
-  const Eigen::Vector3d z = -eye.normalized();
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
-  View view;
-  view.camera = kCamera;
-  view.T_eye_scene.linear() << x.transpose(), z.cross(x).transpose(), z.transpose();
-  view.T_eye_scene.translation() = -(view.T_eye_scene.linear() * eye);
-  return view;
-}
-
-/// Ellipsoids, 6 to 54 px long, over 3 m × 3 m of floor, as many as pairs of n features.
-Scene pairs(int count) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(-1.5, 1.5);
-  std::uniform_real_distribution<double> size(0.01, 0.09);
-  Scene scene;
-  for (int i = 0; i < count; ++i) {
-    const double minor = 0.5 * size(random);
-    const Eigen::AngleAxisd turn(place(random), Eigen::Vector3d::UnitZ());
-    scene.ellipsoids.push_back(
-        {{place(random), place(random), 0.0},
-         turn.toRotationMatrix() * Eigen::Vector3d(size(random), minor, minor).asDiagonal(),
-         {0.9F, 0.1F, 0.1F, 1.0F}});
-  }
-  return scene;
-}
 
 std::shared_ptr<const Image> picture() {
   auto image = std::make_shared<Image>(Image{kCamera.width, kCamera.height, {}});
@@ -70,12 +42,12 @@ std::shared_ptr<const LookupMap> lens() {
 /// by pixel, 2 through a lens.
 void drawFrame(benchmark::State& state) {
   const auto views = static_cast<std::size_t>(state.range(2));
-  View view = overhead();
+  View view = overFloor(kCamera);
   if (state.range(1) > 0) view.background.image = picture();
   if (state.range(1) > 1) view.background.map = lens();
   std::vector<View> eyes(views, view);
   if (views > 1) eyes[1].T_eye_scene.pretranslate(Eigen::Vector3d(-0.064, 0.0, 0.0));
-  const Scene scene = pairs(static_cast<int>(state.range(0)));
+  const Scene scene = ellipsoidFloor(static_cast<int>(state.range(0)));
   const auto gpu = std::make_shared<Gpu>();
   Offscreen offscreen(gpu, kCamera.width, kCamera.height, static_cast<int>(views));
   std::vector<Image> pictures;
@@ -125,7 +97,7 @@ void drawPairs(benchmark::State& state) {
   const auto n = static_cast<int>(state.range(0));
   const auto views = static_cast<std::size_t>(state.range(1));
   const bool changing = state.range(2) != 0;
-  std::vector<View> eyes(views, overhead());
+  std::vector<View> eyes(views, overFloor(kCamera));
   if (views > 1) eyes[1].T_eye_scene.pretranslate(Eigen::Vector3d(-0.064, 0.0, 0.0));
   std::vector<Scene> scenes;
   for (unsigned seed = 1; seed <= 2; ++seed) {

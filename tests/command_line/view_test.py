@@ -241,17 +241,20 @@ class Hmd(program.InAFolder):
             self.assertLess(float(row[2]), float(row[3]))
             self.assertLess(float(row[3]), float(row[4]))
 
-    def test_a_rig_that_is_wrong_shows_in_the_residual(self):
+    def test_a_rig_that_is_wrong_is_named(self):
         camera = ("{{image_width: 640, image_height: 480, camera_name: c, camera_matrix: {{rows: 3, cols: 3, "
                   "data: [{f}, 0, 320, 0, {f}, 240, 0, 0, 1]}}, distortion_model: plumb_bob, "
                   "distortion_coefficients: {{rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}}}}").format(f=500)
         self.write("rig.yaml", "T_right_left: {position_m: [-0.064, 0, 0]}\n"
                    f"left: {{camera_info: {camera}}}\nright: {{camera_info: {camera}}}\n")
         # The twin of the walk: a head that is known so badly registers no robot.
-        status, _, errors = self.run_here("hmd", "--frames", 8, "--rig", "rig.yaml", "--report", "r.json")
+        status, _, errors = self.run_here("hmd", "--fps", 8, "--frames", 20, "--rig", "rig.yaml",
+                                          "--report", "r.json")
         self.assertEqual(status, 2, errors)
         self.assertIn("never found", errors)
         self.assertGreater(float(re.search(r"residual ([0-9.]+) px", errors)[1]), 1.0)
+        self.assertRegex(errors, "(focal length|principal point|corners in the picture) of the left camera")
+        self.assertTrue(any("of the left camera" in p for p in self.load("r.json")["frames"][-1]["problems"]))
 
     def test_layouts_have_their_sizes(self):
         from_png = lambda data: tuple(int.from_bytes(data[at:at + 4], "big") for at in (16, 20))

@@ -61,33 +61,6 @@ void judge(SeenRoom& room, const TagLayout& stated, int frame, int bad,
 
 }  // namespace
 
-Consistency consistencyOf(int runs) {
-  SeenRoom room;
-  room.most_tags = 5;
-  room.head = standingHead({.sway = 0});
-  HeadTrackerOptions options;
-  options.corner_bias_px = 0;
-  const EyeCamera eye(room.rig, 0);
-  const Isometry3d truth = room.head(atFrame(0));
-  const Vector3d p(0.3, 0.2, 0);
-  const Vector2d true_px = room.pixel(0, atFrame(0), p).value();
-  Consistency result;
-  Progress progress("consistency", runs);
-  for (int run = 0; run < runs; ++run) {
-    HeadTracker tracker(room.rig, room.truth, options);
-    tracker.add(room.pair(atFrame(0)));
-    const HeadMotion motion = tracker.at(atFrame(0)).value().motion;
-    const Vector6 e = errorOf(motion, truth);
-    const Eigen::Matrix<double, 6, 6> S = motion.covariance.topLeftCorner<6, 6>();
-    result.pose += e.dot(S.llt().solve(e)) / runs;
-    const Vector2d d = projectRolling(eye, motion, p).value() - true_px;
-    const Eigen::Matrix2d S_px = overlayCovariance(eye, motion, {}, p).value();
-    result.overlay += d.dot(S_px.llt().solve(d)) / runs;
-    progress.done();
-  }
-  return result;
-}
-
 double trackedWithMostHidden(int frames) {
   SeenRoom room;
   room.hidden = 0.6;
@@ -160,9 +133,9 @@ SpoiltLayouts spoiltLayouts(int places) {
   return result;
 }
 
-Relocks relocks(int trials, bool turning) {
+Relocks relocks(int trials, const HeadPath& head) {
   SeenRoom room;
-  if (turning) room.head = turningHead({.turn_rate = M_PI / 3, .turn_angle = 0.4});
+  room.head = head;
   const EyeCamera eye(room.rig, 0);
   HeadTracker tracker(room.rig, room.truth);
   Relocks result;
@@ -187,6 +160,28 @@ Relocks relocks(int trials, bool turning) {
     }
   }
   return result;
+}
+
+HeadPath glancingHead(double peak_rate, double angle) {
+  constexpr double kPeak = 1.875;  // of a minimum-jerk turn, over its mean rate
+  const double lasts = kPeak * angle / peak_rate;
+  return [=](std::chrono::nanoseconds time) {
+    const double t = std::chrono::duration<double>(time).count();
+    double begins = 0, from = -angle / 2;
+    for (int turn = 0;; ++turn, from = -from) {
+      begins += 0.5 + 0.3 * std::sin(7.0 * turn);  // the rest before it
+      const double s = std::clamp((t - begins) / lasts, 0.0, 1.0);
+      if (s == 1) {
+        begins += lasts;
+        continue;
+      }
+      const double part = s * s * s * (10 - s * (15 - 6 * s));
+      Isometry3d T = walkingHead()(time);
+      T.linear() = Eigen::AngleAxisd(from * (1 - 2 * part), Vector3d::UnitZ()).toRotationMatrix() *
+                   T.linear();
+      return T;
+    }
+  };
 }
 
 }  // namespace slamscope::tracking::experiments

@@ -3,16 +3,12 @@
 
 #include <vector>
 
+#include "tracking/head_path.hpp"
+
 namespace slamscope::tracking::experiments {
 
 // Many trials on corners that OpenCV projects and noise moves: what the lab's pictures would take
 // days for.
-
-/// T8: mean squared Mahalanobis distances of pose (6 degrees of freedom) and overlay pixel (2).
-struct Consistency {
-  double pose = 0, overlay = 0;
-};
-[[nodiscard]] Consistency consistencyOf(int runs);
 
 /// T9: part of the frames that are tracked, and rightly, with 60 % of the tags hidden at random.
 [[nodiscard]] double trackedWithMostHidden(int frames);
@@ -34,6 +30,10 @@ struct Relocks {
   int trials = 0, in_one_frame = 0, within_covariance = 0;
   std::vector<double> jump_px;  ///< of the overlay, after gaps of up to 0.1 s
 };
-[[nodiscard]] Relocks relocks(int trials, bool turning);
+[[nodiscard]] Relocks relocks(int trials, const HeadPath& head);
+
+/// Looks from side to side (`angle`, rad) with minimum-jerk turns (Flash and Hogan, 1985) of this
+/// peak rate (rad/s), resting 0.2 to 0.8 s between them: nobody can know when the next one begins.
+[[nodiscard]] HeadPath glancingHead(double peak_rate, double angle);
 
 }  // namespace slamscope::tracking::experiments

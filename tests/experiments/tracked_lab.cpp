@@ -57,8 +57,8 @@ TrackedLab trackLab(const StereoLabOptions& options, int frames) {
   const Rig& rig = options.rig;
   HeadTracker tracker(rig, *lab.tags());
   std::vector<TagSearch> searches;
-  for (const RigCamera& camera : rig.cameras)
-    searches.emplace_back(CameraModel(camera.info), *lab.tags());
+  for (std::size_t eye = 0; eye < rig.cameras.size(); ++eye)
+    searches.emplace_back(EyeCamera(rig, eye), *lab.tags());
   slam::experiments::Progress progress("lab", frames);
   TrackedLab result;
   for (int k = 0; k < frames; ++k) {
@@ -68,12 +68,9 @@ TrackedLab trackLab(const StereoLabOptions& options, int frames) {
     std::vector<HeadPicture> pictures;
     for (std::size_t eye = 0; eye < rig.cameras.size(); ++eye) {
       const auto begin = std::clock();
-      std::optional<Isometry3d> T_camera_world;
-      if (const auto pose = tracker.at(lab.time(eye, frame))) {
-        T_camera_world = (pose->motion.T_world_head * rig.T_head_camera(eye)).inverse();
-      }
-      pictures.push_back(
-          {eye, both.eyes[eye]->time, searches[eye].find(*both.eyes[eye], T_camera_world)});
+      std::optional<HeadMotion> motion;
+      if (const auto pose = tracker.at(lab.time(eye, frame))) motion = pose->motion;
+      pictures.push_back({eye, both.eyes[eye]->time, searches[eye].find(*both.eyes[eye], motion)});
       if (k > 0) result.find_ms.push_back(since(begin));
     }
     const auto begin = std::clock();

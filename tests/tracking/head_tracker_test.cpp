@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/tracking/seen_room.hpp"
-#include "tests/tracking/seen_tags.hpp"
+#include "tests/tracking/head_consistency.hpp"
 #include "tracking/head_overlay.hpp"
 
 namespace slamscope::tracking {
@@ -78,37 +77,14 @@ TEST(HeadTracker, RowTimesAreWhatMakesRollingShutterFit) {
   EXPECT_GT(residual_ignorant, 0.5) << "the shear must be seen";
 }
 
-/// Figure T8: one filter step from a prior drawn from its covariance, 1000 times.
+/// Figure T8.
 TEST(HeadTracker, PoseAndOverlayErrorsAreWhatTheCovarianceSays) {
-  SeenRoom room;
-  room.most_tags = 4;
-  room.head = standingHead({.sway = 0});
-  HeadTrackerOptions options;
-  options.corner_bias_px = 0;
-  const EyeCamera eye(room.rig, 0);
-  const Isometry3d truth = room.head(nanoseconds(0));
-  const Vector3d p(0.3, 0.2, 0);
-  const auto true_px = room.pixel(0, nanoseconds(0), p);
-  double pose_nees = 0, overlay_nees = 0, boastful_nees = 0;
   constexpr int kRuns = 1000;
-  for (int run = 0; run < kRuns; ++run) {
-    HeadTracker tracker(room.rig, room.truth, options);
-    tracker.add(room.pair(nanoseconds(0)));
-    const auto head = tracker.at(nanoseconds(0));
-    ASSERT_TRUE(head);
-    const auto e = testing::perturbation(head->motion.T_world_head, truth);
-    const Eigen::Matrix<double, 6, 6> S = head->motion.covariance.topLeftCorner<6, 6>();
-    pose_nees += e.dot(S.llt().solve(e)) / kRuns;
-    boastful_nees += e.dot((S / 1.5).llt().solve(e)) / kRuns;
-    const auto drawn = projectRolling(eye, head->motion, p);
-    const auto S_px = overlayCovariance(eye, head->motion, {}, p);
-    ASSERT_TRUE(drawn && S_px && true_px);
-    const Vector2d d = *drawn - *true_px;
-    overlay_nees += d.dot(S_px->llt().solve(d)) / kRuns;
-  }
-  EXPECT_TRUE(testing::neesBand(6, kRuns).holds(pose_nees)) << pose_nees;
-  EXPECT_TRUE(testing::neesBand(2, kRuns).holds(overlay_nees)) << overlay_nees;
-  EXPECT_FALSE(testing::neesBand(6, kRuns).holds(boastful_nees)) << "a third less must be seen";
+  const auto nees = testing::headConsistency(kRuns);
+  EXPECT_TRUE(testing::neesBand(6, kRuns).holds(nees.pose)) << nees.pose;
+  EXPECT_TRUE(testing::neesBand(2, kRuns).holds(nees.overlay)) << nees.overlay;
+  EXPECT_FALSE(testing::neesBand(6, kRuns).holds(nees.boastful_pose))
+      << "a third less must be seen";
 }
 
 TEST(HeadTracker, LatePicturesCountAtTheirOwnTime) {
@@ -166,7 +142,7 @@ TEST(HeadTracker, PredictsToAGivenTimeWithoutAClock) {
     const auto pose = tracker.at(time);
     ASSERT_TRUE(pose) << ms;
     const auto e = testing::perturbation(pose->motion.T_world_head, room.head(time));
-    const Matrix12d& P = pose->motion.covariance;
+    const Matrix18d& P = pose->motion.covariance;
     EXPECT_LT(e.dot((P.topLeftCorner<6, 6>()).llt().solve(e)), 22.5) << ms;  // 99.9 %
     EXPECT_GT(P(0, 0), sigma_before) << "ever less certain";
     sigma_before = P(0, 0);
@@ -234,6 +210,35 @@ TEST(HeadTracker, FindsItselfInOneFrameAndAfterGapsJumpsWithinItsCovariance) {
   tracker.add(room.pair(atFrame(++frame)));
   EXPECT_EQ(tracker.last().state, HeadState::tracking);
   EXPECT_TRUE(tracker.last().relocked);
+}
+
+/// 95th percentile of how far the overlay jumps (px) when tags come back after `gap` frames, while
+/// the head turns to and fro at 60°/s.
+double jumpAfter(int gap) {
+  SeenRoom room;
+  room.head = turningHead({.turn_rate = M_PI / 3, .turn_angle = 0.4});
+  const EyeCamera eye(room.rig, 0);
+  HeadTracker tracker(room.rig, room.truth);
+  std::vector<double> jumps;
+  for (int frame = 0; frame < 300;) {
+    for (int k = 0; k < 6; ++k) tracker.add(room.pair(atFrame(++frame)));
+    for (int k = 0; k < gap; ++k) tracker.add(HeadPicture{0, atFrame(++frame), {}});
+    const auto before = tracker.at(atFrame(++frame));
+    tracker.add(room.pair(atFrame(frame)));
+    const auto after = tracker.at(atFrame(frame));
+    for (double x = -0.8; x < 0.81; x += 0.4) {
+      const auto a = projectRolling(eye, before->motion, {x, x / 2, 0});
+      const auto b = projectRolling(eye, after->motion, {x, x / 2, 0});
+      if (a && b) jumps.push_back((*a - *b).norm());
+    }
+  }
+  return ninetyFifth(jumps);
+}
+
+TEST(HeadTracker, OverlayJumpsByLessThanTwoPixelsAfterATenthOfASecondInATurn) {
+  EXPECT_LT(jumpAfter(1), 1.5);
+  EXPECT_LT(jumpAfter(2), 2.5);
+  EXPECT_GT(jumpAfter(8), 10) << "a jump must be seen";
 }
 
 TEST(HeadTracker, LoneTagFromAfarIsAmbiguousUntilASecondOneShows) {

@@ -186,13 +186,19 @@ TEST_F(LabWalk, SameFrameToTheByteInAnyOrder) {
 }
 
 TEST_F(LabWalk, SearchNearThePredictionFindsWhatTheWholePictureHolds) {
-  const CameraInfo& info = lab_->options().rig.cameras[0].info;
-  TagSearch search(CameraModel(info), *lab_->tags());
-  const auto whole = search.find(*both_->eyes[0], std::nullopt);
+  TagSearch search(EyeCamera(lab_->options().rig, 0), *lab_->tags());
+  EXPECT_GE(search.find(*both_->eyes[0], std::nullopt).size(), 3U);
   EXPECT_TRUE(search.whole());
-  const Isometry3d T_camera_world =
-      (lab_->T_world_head(lab_->time(0, 6)) * lab_->options().rig.T_head_camera(0)).inverse();
-  const auto near = search.find(*both_->eyes[0], T_camera_world);
+  const CameraModel camera(lab_->options().rig.cameras[0].info);
+  const auto whole = TagDetector({.camera = camera}).detect(*both_->eyes[0]);
+  HeadMotion motion;
+  const nanoseconds time = lab_->time(0, 6), step = milliseconds(1);
+  const Isometry3d before = lab_->T_world_head(time - step),
+                   after = lab_->T_world_head(time + step);
+  motion.T_world_head = lab_->T_world_head(time);
+  motion.v_world = (after.translation() - before.translation()) / 0.002;
+  motion.omega_head = rotationLog(before.linear().transpose() * after.linear()) / 0.002;
+  const auto near = search.find(*both_->eyes[0], motion);
   EXPECT_FALSE(search.whole());
   std::vector<int> of_whole, of_near;
   for (const auto& tag : whole) {
@@ -214,7 +220,7 @@ TEST_F(LabWalk, MirroredPictureIsNamed) {
       }
     }
   }
-  TagSearch search(CameraModel(lab_->options().rig.cameras[0].info), *lab_->tags());
+  TagSearch search(EyeCamera(lab_->options().rig, 0), *lab_->tags());
   for (int k = 0; k < 10; ++k) EXPECT_TRUE(search.find(mirror, std::nullopt).empty());
   EXPECT_EQ(search.problem(), "the picture is mirrored");
 }

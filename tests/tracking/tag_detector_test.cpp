@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -114,6 +115,75 @@ TEST(TagDetector, WithoutRefinementTheFigureIsMissed) {
   TagDetectorOptions options;
   options.refine = false;
   EXPECT_FALSE(meetsT2(measure(80, 0.6, options)));
+}
+
+/// Tag 7 with sides of 60 px, and where it truly is.
+struct SeenTag {
+  Picture picture;
+  Corners truth;
+};
+
+SeenTag seenTag() {
+  std::mt19937 random(11);
+  const Corners truth = someCorners(60, false, random);
+  Rendering rendering = through(truth);
+  rendering.width = rendering.height = 130;
+  rendering.blur_px = 0.5;
+  return {render(PrintedTag(7), rendering), truth};
+}
+
+ExpectedTag expectedAt(int id, const Corners& corners, const Vector2d& off) {
+  ExpectedTag expected{id, corners};
+  for (Vector2d& corner : expected.corners_px) corner += off;
+  return expected;
+}
+
+double worstCorner(const TagDetection& tag, const Corners& truth) {
+  double worst = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    worst = std::max(worst, (tag.corners_px[i] - truth[i]).norm());
+  }
+  return worst;
+}
+
+TEST(TagDetector, FollowedTagsHaveTheCornersOfSearchedOnes) {
+  const auto [picture, truth] = seenTag();
+  TagDetector detector;
+  for (const Vector2d& off : {Vector2d(0, 0), Vector2d(1.2, -0.9), Vector2d(9, 4)}) {
+    const ExpectedTag expected = expectedAt(7, truth, off);
+    const auto tags = detector.follow(view(picture), std::span(&expected, 1));
+    ASSERT_EQ(tags.size(), 1U) << off.transpose();
+    EXPECT_LT(worstCorner(tags[0], truth), 0.05) << off.transpose();
+    EXPECT_EQ(tags[0].hamming, 0);
+    EXPECT_NEAR(tags[0].margin, 95, 1) << "half the contrast of the print";
+  }
+  const ExpectedTag far = expectedAt(7, truth, {60, 60});
+  EXPECT_TRUE(
+      detector.follow(view(picture), std::span(&far, 1), {.margin_px = 2, .also = {}}).empty());
+}
+
+TEST(TagDetector, AnotherTagInTheExpectedPlaceIsSeenForWhatItIs) {
+  const auto [picture, truth] = seenTag();
+  TagDetector detector;
+  const ExpectedTag other = expectedAt(8, truth, {0, 0});
+  const auto tags = detector.follow(view(picture), std::span(&other, 1));
+  ASSERT_EQ(tags.size(), 1U);
+  EXPECT_EQ(tags[0].id, 7);
+  ExpectedTag turned = expectedAt(7, truth, {0, 0});
+  std::rotate(turned.corners_px.begin(), turned.corners_px.begin() + 1, turned.corners_px.end());
+  const auto found = detector.follow(view(picture), std::span(&turned, 1));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LT(worstCorner(found[0], truth), 0.05) << "a quarter of a turn isn't believed";
+}
+
+TEST(TagDetector, FollowedTagsAreNotFoundOnceMoreWhereTheSearchMeetsThem) {
+  const auto [picture, truth] = seenTag();
+  TagDetector detector;
+  const ExpectedTag expected = expectedAt(7, truth, {0.5, 0.5});
+  const PixelRegion whole{0, 0, picture.width, picture.height};
+  const auto tags = detector.follow(view(picture), std::span(&expected, 1),
+                                    {.also = std::span(&whole, 1), .whole_picture = true});
+  EXPECT_EQ(tags.size(), 1U);
 }
 
 TEST(TagDetector, SearchingAtHalfSizeChangesNoCorner) {

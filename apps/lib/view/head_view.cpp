@@ -27,7 +27,7 @@ HeadView::HeadView(const StereoSetup& setup, int pairs)
     : setup_(setup), rig_(drawnRig(setup.rig)), tracker_(setup.rig, setup.tags) {
   for (std::size_t eye = 0; eye < rig_.cameras.size(); ++eye) cameras_.emplace_back(rig_, eye);
   for (std::size_t eye = 0; eye < setup.source->cameras(); ++eye) {
-    searches_.emplace_back(cameras_[eye].model, setup.tags);
+    searches_.emplace_back(cameras_[eye], setup.tags);
   }
   if (setup.robot) {
     robot_.emplace(setup.rig, *setup.robot, pairs * static_cast<int>(searches_.size()));
@@ -42,11 +42,10 @@ std::chrono::nanoseconds HeadView::midExposure(std::size_t eye,
 }
 
 std::vector<TagDetection> HeadView::find(std::size_t eye, const tracking::Frame& frame) {
-  std::optional<Eigen::Isometry3d> T_camera_world;
-  if (const auto pose = tracker_.at(midExposure(eye, frame))) {
-    T_camera_world = (pose->motion.T_world_head * rig_.T_head_camera(eye)).inverse();
-  }
-  return searches_[eye].find(frame, T_camera_world, robot_seen_[eye]);
+  std::optional<tracking::HeadMotion> motion;
+  if (const auto pose = tracker_.at(midExposure(eye, frame))) motion = pose->motion;
+  const bool robot_sought = robot_ && !robot_->place() && robot_seen_[eye].empty();
+  return searches_[eye].find(frame, motion, robot_seen_[eye], robot_sought);
 }
 
 void HeadView::add(const tracking::StereoFrame& frame) {
@@ -115,6 +114,11 @@ tracking::HeadState HeadView::state() const {
 
 const std::optional<tracking::MapPlace>& HeadView::place() const {
   return robot_ ? robot_->place() : origin_;
+}
+
+std::optional<Eigen::Matrix2d> HeadView::ownErrorOnFloor(const Eigen::Vector3d& p_map) const {
+  if (!eyes_[0].head || !place()) return std::nullopt;
+  return tracking::overlayCovarianceOnFloor(cameras_[0], eyes_[0].head->motion, *place(), p_map);
 }
 
 std::vector<std::string> HeadView::statusLines() const {

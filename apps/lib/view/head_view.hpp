@@ -41,6 +41,9 @@ class HeadView {
   [[nodiscard]] const tracking::HeadTracker& tracker() const { return tracker_; }
   /// Where the map lies in the room, once it is known for good.
   [[nodiscard]] const std::optional<tracking::MapPlace>& place() const;
+  /// Covariance of tracker's and registration's error at a point of the map as the left eye sees it
+  /// now (m², map axes); nothing where it isn't in view.
+  [[nodiscard]] std::optional<Eigen::Matrix2d> ownErrorOnFloor(const Eigen::Vector3d& p_map) const;
   [[nodiscard]] int robotPictures() const { return robot_ ? robot_->pictures() : 0; }
   [[nodiscard]] const tracking::Rig& rig() const { return rig_; }  ///< of two eyes
 

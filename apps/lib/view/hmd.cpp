@@ -20,31 +20,6 @@ std::shared_ptr<engine::Gpu> gpuFor(const MonitorOptions& view) {
                                                             : std::vector<std::string>{}});
 }
 
-/// Both eyes at one size (the left camera's unless another was asked for), each with its own K.
-std::array<OutputCamera, 2> eyeCameras(const tracking::Rig& rig, int width, int height) {
-  if (width <= 0 || height <= 0) {
-    width = rig.cameras[0].info.width;
-    height = rig.cameras[0].info.height;
-  }
-  return {makeOutputCamera(rig.cameras[0].info, width, height),
-          makeOutputCamera(rig.cameras[1].info, width, height)};
-}
-
-/// The lenses of the display that the rig names, as the engine wears them.
-std::array<engine::Lens, 2> eyeLenses(const tracking::Rig& rig) {
-  std::array<engine::Lens, 2> lenses;
-  for (std::size_t eye = 0; eye < lenses.size(); ++eye) {
-    const tracking::DisplayLens& display = rig.cameras[eye].display;
-    const auto& blue_green_red = display.colour_scale;
-    lenses[eye] = {
-        .centre = display.centre,
-        .k = {display.k[0], display.k[1], display.k[2]},
-        .scale = Eigen::Vector3d(blue_green_red[2], blue_green_red[1], blue_green_red[0]) /
-                 display.zoom};
-  }
-  return lenses;
-}
-
 }  // namespace
 
 Hmd::State::State(const HmdOptions& request)
@@ -56,10 +31,11 @@ Hmd::State::State(const HmdOptions& request)
       head(setup, registrationPairs()),
       pairs(setup),
       gpu(gpuFor(request.view)),
-      cameras(eyeCameras(head.rig(), request.view.width, request.view.height)),
-      offscreen(gpu, cameras[0].pinhole.width, cameras[0].pinhole.height, 2) {
-  for (std::size_t eye = 0; eye < views.size(); ++eye) views[eye].camera = cameras[eye].pinhole;
-  offscreen.wear(eyeLenses(head.rig()));
+      picture(gpu, head.rig(),
+              {.width = request.view.width,
+               .height = request.view.height,
+               .layout = request.layout,
+               .swap_eyes = request.swap_eyes}) {
   if (!request.view.output.empty()) output = openPictureOutput(request.view.output, setup.fps);
   if (!request.latency.empty()) latency.emplace(request.latency);
 }
@@ -107,11 +83,8 @@ bool Hmd::State::next() {
   report.addStage("slam", watch.lap());
   layer.judge();
   report.addStage("audit", watch.lap());
-  for (std::size_t eye = 0; eye < views.size(); ++eye) {
-    const auto& frame = pair->frame.eyes[eye];
-    views[eye].background =
-        frame ? backgroundOf(*frame, cameras[eye], gpu->device()) : engine::Background{};
-  }
+  picture.takeFrames(pair->frame);
+  report.addStage("background", watch.lap());
   return true;
 }
 
@@ -132,6 +105,7 @@ std::vector<std::string> Hmd::State::lines() const {
 void Hmd::State::compose() {
   render.opacity = static_cast<float>(choices.opacity);
   const auto& eyes = head.eyes();
+  auto& views = picture.views();
   std::optional<SlamLayer::Place> place;
   if (eyes[0].T_eye_map && eyes[1].T_eye_map) {
     for (std::size_t eye = 0; eye < views.size(); ++eye) {
@@ -144,7 +118,10 @@ void Hmd::State::compose() {
     place.emplace(SlamLayer::Place{.view = views[0],
                                    .map_scale = setup.map_scale,
                                    .metres_per_px = metres_per_px,
-                                   .viewer_up = Eigen::Vector3d::UnitZ()});
+                                   .viewer_up = Eigen::Vector3d::UnitZ(),
+                                   .own_error = [this](const Eigen::Vector3d& p_scene) {
+                                     return head.ownErrorOnFloor(p_scene);
+                                   }});
   }
   scene = layer.compose(place, views[0].camera, lines());
 }
@@ -162,7 +139,7 @@ void Hmd::finish(Ending ending) {
   state_->finish(ending);
 }
 const engine::Image& Hmd::drawn() const {
-  return state_->picture;
+  return state_->picture.drawn();
 }
 Viewer::Choices& Hmd::choices() {
   return state_->choices;

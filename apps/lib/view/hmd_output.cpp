@@ -13,10 +13,8 @@ void Hmd::State::draw() {
   StopWatch watch;
   compose();
   report.addStage("scene", watch.lap());
-  offscreen.draw(views, scene, render, pixels);
-  layer.drawn(offscreen.lastStats().pairs);
-  const bool swapped = options.swap_eyes;
-  layOut(options.layout, pixels[swapped ? 1 : 0], pixels[swapped ? 0 : 1], picture);
+  picture.draw(scene, render);
+  layer.drawn(picture.lastStats().pairs);
   report.addStage("draw", watch.lap());
   if (drawn_frame == frame_count) return;
   drawn_frame = frame_count;
@@ -25,7 +23,7 @@ void Hmd::State::draw() {
 }
 
 void Hmd::State::hand() {
-  if (output) output->write(picture);
+  if (output) output->write(picture.drawn());
   if (options.view.report.empty()) return;
   const HmdFrame frame = frameReport();
   std::vector<double> errors = frame.eyes[0].overlay_errors_px;
@@ -37,7 +35,7 @@ void Hmd::State::hand() {
 HmdFrame Hmd::State::frameReport() const {
   HmdFrame frame{.head = head, .problems = problems, .true_T_world_map = {}, .eyes = {}};
   if (setup.lab != nullptr) frame.true_T_world_map = setup.lab->options().room.T_world_map;
-  for (std::size_t eye = 0; eye < views.size(); ++eye) {
+  for (std::size_t eye = 0; eye < frame.eyes.size(); ++eye) {
     FrameReport& drawn = frame.eyes[eye];
     const EyeSight& sight = head.eyes()[eye];
     drawn.time_s = seconds(frame_time);
@@ -45,9 +43,9 @@ HmdFrame Hmd::State::frameReport() const {
     if (!layer.newest()) continue;
     drawn.snapshot_time_s = seconds(layer.newest()->time);
     if (!sight.T_eye_map || scene.cones.empty()) continue;
-    drawn.ellipsoids = ellipsoidCount(scene, offscreen.lastStats().pairs);
+    drawn.ellipsoids = ellipsoidCount(scene, picture.lastStats().pairs);
     drawn.features = scene.cones.size() - 1;  // one is the robot's
-    measureOverlay({.camera = views[eye].camera,
+    measureOverlay({.camera = picture.views()[eye].camera,
                     .T_camera_map = *sight.T_eye_map,
                     .true_T_camera_map = sight.true_T_eye_map,
                     .map_scale = setup.map_scale},
@@ -60,12 +58,13 @@ void Hmd::State::finish(Viewer::Ending ending) {
   if (!options.view.report.empty()) report.write(options.view.report);
   const bool in_vain = ending == Viewer::Ending::input_ended && !setup.source->live();
   if (in_vain && !ever_shown && (setup.lab == nullptr || frame_count > 0)) {
+    std::string why = head.statusLines().front();
+    for (const std::string& problem : problems) why += "; " + problem;
     throw std::runtime_error(options.view.camera + ": the map was never found in " +
-                             std::to_string(frame_count) + " frames (" +
-                             head.statusLines().front() + ")");
+                             std::to_string(frame_count) + " frames (" + why + ")");
   }
   if (output) output->finish();
-  if (!options.view.picture.empty()) writePicture(options.view.picture, picture);
+  if (!options.view.picture.empty()) writePicture(options.view.picture, picture.drawn());
 }
 
 void Hmd::presented() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,11 +10,10 @@
 #include "apps/lib/view/hmd.hpp"
 #include "apps/lib/view/hmd_report.hpp"
 #include "apps/lib/view/latency_log.hpp"
-#include "apps/lib/view/output_camera.hpp"
 #include "apps/lib/view/picture_output.hpp"
 #include "apps/lib/view/slam_layer.hpp"
+#include "apps/lib/view/stereo_picture.hpp"
 #include "apps/lib/view/stop_watch.hpp"
-#include "engine/render/offscreen.hpp"
 
 namespace slamscope::apps {
 
@@ -42,17 +40,13 @@ struct Hmd::State {
   HeadView head;
   PairPrefetch pairs;
   std::shared_ptr<engine::Gpu> gpu;
-  std::array<OutputCamera, 2> cameras;
-  std::array<engine::View, 2> views;
-  engine::Offscreen offscreen;
+  StereoPicture picture;
   std::unique_ptr<PictureOutput> output;
   std::optional<LatencyLog> latency;
   MonitorReport report;
 
   engine::Scene scene;
   engine::RenderOptions render;
-  std::vector<engine::Image> pixels;
-  engine::Image picture;  ///< both eyes
   std::vector<std::string> problems;
   FrameStations stations;
   std::optional<double> latency_ms;  ///< of the frame before: what the status line says

@@ -62,6 +62,9 @@ void KeyCommands::press(char32_t key) {
     case 'e':
       choices_.covariance_rings = !choices_.covariance_rings;
       return;
+    case 'o':
+      choices_.own_error = !choices_.own_error;
+      return;
     case 'l':
       choices_.labels = !choices_.labels;
       return;

@@ -87,6 +87,10 @@ std::vector<Row> rowsOf(const Legend& legend) {
   if (legend.covariance_rings) {
     rows.push_back({colour::kFeature, format("ring: %gσ of the position", legend.axis.k)});
   }
+  if (legend.own_error) {
+    rows.push_back({colour::kOwnError,
+                    format("white ring: %gσ of the registration's own error", legend.axis.k)});
+  }
   if (!only_flagged) {
     const bool three = legend.mode == slam::PairMode::min_mean_max;
     rows.push_back({colour::kEllipsoid, std::string(three ? "least, mean, greatest" : "relative") +

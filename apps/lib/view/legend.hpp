@@ -18,6 +18,7 @@ struct Legend {
   slam::AxisScale axis;
   double map_scale = 1.0;
   bool covariance_rings = false;
+  bool own_error = false;    ///< the registration's, at each feature
   bool tentative = false;    ///< some features are
   int clusters = 0;          ///< 0: not shown
   double cluster_cut = 0.0;  ///< m

@@ -28,8 +28,9 @@ Monitor::State::State(const MonitorOptions& request)
       choices(choicesOf(request)),
       layer(options, choices),
       camera(makeOutputCamera(setup.info, request.width, request.height)),
+      source_camera(setup.info),
       detector(detectorOptions(setup)),
-      registration(setup.registration, tracking::CameraModel(setup.info)),
+      registration(setup.registration, source_camera),
       frames(*setup.source),
       gpu(std::make_shared<engine::Gpu>(engine::GpuOptions{
           .device = request.device,

@@ -43,6 +43,7 @@ struct MonitorOptions {
   std::optional<double> cluster_cut;  ///< m
   double opacity = 1.0;
   bool covariance_rings = false;
+  bool own_error = false;
   bool labels = true;
   bool legend = true;
 

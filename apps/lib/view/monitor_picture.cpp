@@ -16,7 +16,10 @@ void Monitor::State::compose() {
         .view = picture.view,
         .map_scale = setup.map_scale,
         .metres_per_px = metres_per_px,
-        .viewer_up = T_camera_map.linear().transpose() * -Eigen::Vector3d::UnitY()});
+        .viewer_up = T_camera_map.linear().transpose() * -Eigen::Vector3d::UnitY(),
+        .own_error = [this](const Eigen::Vector3d& p_scene) {
+          return tracking::overlayCovarianceOnFloor(source_camera, *registered(), p_scene);
+        }});
   }
   picture.scene = layer.compose(place, camera.pinhole, lines);
 }

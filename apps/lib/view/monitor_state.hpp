@@ -49,6 +49,7 @@ struct Monitor::State {
   Choices choices;
   SlamLayer layer;
   OutputCamera camera;
+  tracking::CameraModel source_camera;
   tracking::TagDetector detector;
   tracking::Registration registration;
   FramePrefetch frames;

@@ -41,27 +41,25 @@ OutputCamera makeOutputCamera(const tracking::CameraInfo& source, int width, int
   tracking::UndistortMap map = tracking::undistortMap(source, K, width, height);
   output.map = std::make_shared<engine::LookupMap>(
       engine::LookupMap{.width = width, .height = height, .uv_px = std::move(map.uv)});
+  output.resampler = std::make_shared<Resampler>(std::span(output.map.get(), 1));
   return output;
 }
 
 engine::Background backgroundOf(const tracking::Frame& frame, const OutputCamera& camera,
                                 const engine::DeviceInfo& device) {
-  cv::Mat bgr(frame.height, frame.width, CV_8UC3, const_cast<std::uint8_t*>(frame.bgr.data()));
-  const bool undistort_here = camera.map && device.type == "cpu";
-  if (undistort_here) {
-    const engine::LookupMap& map = *camera.map;
-    const cv::Mat uv(map.height, map.width, CV_32FC2, const_cast<float*>(map.uv_px.data()));
-    cv::Mat undistorted;
-    cv::remap(bgr, undistorted, uv, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
-    bgr = undistorted;
-  }
   auto image = std::make_shared<engine::Image>();
-  image->width = bgr.cols;
-  image->height = bgr.rows;
+  if (camera.map && device.type == "cpu") {
+    (*camera.resampler)(frame, *image);
+    return {.image = std::move(image), .map = nullptr};
+  }
+  const cv::Mat bgr(frame.height, frame.width, CV_8UC3,
+                    const_cast<std::uint8_t*>(frame.bgr.data()));
+  image->width = frame.width;
+  image->height = frame.height;
   image->rgba.resize(bgr.total() * 4);
   cv::Mat rgba(bgr.rows, bgr.cols, CV_8UC4, image->rgba.data());
   cv::cvtColor(bgr, rgba, cv::COLOR_BGR2RGBA);
-  return {.image = std::move(image), .map = undistort_here ? nullptr : camera.map};
+  return {.image = std::move(image), .map = camera.map};
 }
 
 }  // namespace slamscope::apps

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "apps/lib/view/resampler.hpp"
 #include "engine/gpu/device_info.hpp"
 #include "engine/scene/view.hpp"
 #include "tracking/camera_info.hpp"
@@ -14,6 +15,7 @@ namespace slamscope::apps {
 struct OutputCamera {
   engine::Pinhole pinhole;
   std::shared_ptr<const engine::LookupMap> map;  ///< none where pixels are the source's own
+  std::shared_ptr<const Resampler> resampler;    ///< through the map
 };
 
 /// Same field of view as the source (as K tells it), scaled by one factor and centred; square

@@ -220,20 +220,12 @@ class SceneBuilder {
     scene_.ellipsoids.push_back(ellipsoid);
   }
 
-  /// The k-sigma ellipse of a position's covariance P (m²), as an outline on the floor.
+  /// The k-sigma ellipse of a position's covariance P (m², map), as an outline on the floor.
   void addRing(const Eigen::Vector2d& centre, const Eigen::Matrix2d& P, const engine::Rgba& colour,
                double width_px = 1.6) {
-    constexpr int kPieces = 48;
-    const slam::PrincipalAxes axes = slam::principalAxes(P);
-    const Eigen::Vector2d semi = style_.axis.k * axes.eigenvalues.cwiseMax(0.0).cwiseSqrt();
-    const Eigen::Matrix2d directions = axes.directions();
-    engine::Polyline ring{.points = {}, .width_px = width_px, .colour = colour};
-    for (int piece = 0; piece <= kPieces; ++piece) {
-      const double angle = 2.0 * std::numbers::pi * piece / kPieces;
-      const Eigen::Vector2d on_ring(semi.x() * std::cos(angle), semi.y() * std::sin(angle));
-      ring.points.push_back(onFloor(centre + directions * on_ring));
-    }
-    scene_.lines.push_back(std::move(ring));
+    const double scale = style_.map_scale;
+    scene_.lines.push_back(
+        floorRing(scale * centre, scale * scale * P, style_.axis.k, colour, width_px));
   }
 
   const Belief& belief_;
@@ -257,6 +249,22 @@ engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d, const Eigen::Vec
   ellipsoid.axes.block<2, 1>(0, 1) = minor * directions.col(1);
   ellipsoid.axes(2, 2) = minor;
   return ellipsoid;
+}
+
+engine::Polyline floorRing(const Eigen::Vector2d& centre, const Eigen::Matrix2d& P, double k,
+                           const engine::Rgba& colour, double width_px) {
+  constexpr int kPieces = 48;
+  const slam::PrincipalAxes axes = slam::principalAxes(P);
+  const Eigen::Vector2d semi = k * axes.eigenvalues.cwiseMax(0.0).cwiseSqrt();
+  const Eigen::Matrix2d directions = axes.directions();
+  engine::Polyline ring{.points = {}, .width_px = width_px, .colour = colour};
+  for (int piece = 0; piece <= kPieces; ++piece) {
+    const double angle = 2.0 * std::numbers::pi * piece / kPieces;
+    const Eigen::Vector2d on_ring(semi.x() * std::cos(angle), semi.y() * std::sin(angle));
+    const Eigen::Vector2d point = centre + directions * on_ring;
+    ring.points.emplace_back(point.x(), point.y(), 0.0);
+  }
+  return ring;
 }
 
 engine::PlanarPointsPtr pointsOf(const slam::Snapshot& snapshot) {

@@ -56,6 +56,7 @@ inline constexpr engine::Rgba kFlaggedPair{0.96F, 0.05F, 0.86F, 0.60F};
 inline constexpr engine::Rgba kFlaggedEllipsoid{0.96F, 0.05F, 0.86F,
                                                 0.60F};  // a halo shows through
 inline constexpr engine::Rgba kHaloRing{1.00F, 0.75F, 0.98F, 0.55F};
+inline constexpr engine::Rgba kOwnError{1.0F, 1.0F, 1.0F, 0.9F};
 inline constexpr engine::Rgba kHalo{1.00F, 0.62F, 0.97F, 0.38F};
 }  // namespace colour
 
@@ -90,6 +91,11 @@ struct Belief {
 /// underneath and the maximum above the mean as the viewer sees it: from an overhead camera a
 /// vertical stack would hide all but the top one.
 [[nodiscard]] engine::Scene buildScene(const Belief& belief, const SceneStyle& style);
+
+/// The k-sigma ellipse of a position with covariance P (m²) on the floor, all in the scene.
+[[nodiscard]] engine::Polyline floorRing(const Eigen::Vector2d& centre, const Eigen::Matrix2d& P,
+                                         double k, const engine::Rgba& colour,
+                                         double width_px = 1.6);
 
 /// How many relative covariances the scene shows: ellipsoids without halos, and what the device
 /// chose when it drew the scene.

@@ -36,6 +36,7 @@ Viewer::Choices choicesOf(const MonitorOptions& options) {
   return {.mode = options.mode,
           .axis = options.axis,
           .covariance_rings = options.covariance_rings,
+          .own_error = options.own_error,
           .labels = options.labels,
           .legend = options.legend,
           .opacity = options.opacity,
@@ -167,6 +168,7 @@ Legend SlamLayer::legend(const Place& place) const {
           .axis = choices_.axis,
           .map_scale = place.map_scale,
           .covariance_rings = choices_.covariance_rings,
+          .own_error = choices_.own_error,
           .tentative = slam_.newest() && !slam_.newest()->tentative.empty(),
           .clusters = clustered() ? clusters.count() : 0,
           .cluster_cut = clusters.cut,
@@ -176,6 +178,19 @@ Legend SlamLayer::legend(const Place& place) const {
           .lines_left_out = points_ && points_->pairCount() > kMostPairLines,
           .flagged = choices_.mode == slam::PairMode::alarms || !alarms_.empty(),
           .px_per_m = 1.0 / place.metres_per_px};
+}
+
+void SlamLayer::addOwnError(engine::Scene& scene, const Place& place) const {
+  if (!place.own_error) return;
+  const slam::Snapshot& snapshot = *slam_.newest();
+  const auto add = [&](const Eigen::Vector2d& p_map) {
+    const Eigen::Vector2d p = place.map_scale * p_map;
+    if (const auto P = place.own_error({p.x(), p.y(), 0.0})) {
+      scene.lines.push_back(floorRing(p, *P, choices_.axis.k, colour::kOwnError));
+    }
+  };
+  add(snapshot.pose.head<2>());
+  for (const Eigen::Vector2d& feature : snapshot.features) add(feature);
 }
 
 engine::Scene SlamLayer::compose(const std::optional<Place>& place, const engine::Pinhole& camera,
@@ -189,6 +204,7 @@ engine::Scene SlamLayer::compose(const std::optional<Place>& place, const engine
                         .clusters = slam_.clusters(),
                         .alarms = alarms_},
                        style(*place, camera));
+    if (choices_.own_error) addOwnError(scene, *place);
   }
   addStatus(scene, statusLines(scene, lines), camera, fonts_);
   if (!shown) return scene;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,9 @@ class SlamLayer {
     double map_scale = 1.0;
     double metres_per_px = 0.0;  ///< at the map's origin: what glyphs' sizes go by
     Eigen::Vector3d viewer_up = Eigen::Vector3d::UnitZ();  ///< as SceneStyle
+    /// Covariance of the registration's own error at a point of the scene's floor (m², scene);
+    /// nothing where it isn't in view.
+    std::function<std::optional<Eigen::Matrix2d>(const Eigen::Vector3d& p_scene)> own_error{};
   };
   /// The scene, with panels for a picture of the camera's size. Without a place: only the status.
   /// `lines`: what the viewer has to say of its camera.
@@ -69,6 +73,8 @@ class SlamLayer {
   [[nodiscard]] const engine::PlanarPointsPtr& points();
   [[nodiscard]] std::string pairsText(const engine::Scene& scene) const;
   [[nodiscard]] SceneStyle style(const Place& place, const engine::Pinhole& camera) const;
+  /// Of the registration, at robot and features.
+  void addOwnError(engine::Scene& scene, const Place& place) const;
   [[nodiscard]] std::string runLine(const engine::Scene& scene) const;
   [[nodiscard]] std::vector<std::string> statusLines(const engine::Scene& scene,
                                                      const std::vector<std::string>& lines) const;

@@ -46,6 +46,7 @@ class Viewer {
     slam::PairMode mode = slam::PairMode::all;
     slam::AxisScale axis;
     bool covariance_rings = false;
+    bool own_error = false;  ///< the registration's, at each feature
     bool labels = true;
     bool legend = true;
     double opacity = 1.0;

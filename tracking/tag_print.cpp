@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/tag_print.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace slamscope::tracking {
+namespace {
+
+using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
+
+/// Homography from the unit square, (0, 0) the tag's upper left corner and y down, to pixels
+/// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 2.2.3).
+Matrix3d squareToPixels(const std::array<Vector2d, 4>& corners_px) {
+  const Vector2d &p01 = corners_px[0], &p11 = corners_px[1], &p10 = corners_px[2],
+                 &p00 = corners_px[3];
+  const Vector2d d1 = p10 - p11, d2 = p01 - p11, sum = p00 - p10 + p11 - p01;
+  const auto cross = [](const Vector2d& a, const Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  const double g = cross(sum, d2) / cross(d1, d2), h = cross(d1, sum) / cross(d1, d2);
+  Matrix3d H;
+  H.col(0) << p10 - p00 + g * p10, g;
+  H.col(1) << p01 - p00 + h * p01, h;
+  H.col(2) << p00, 1;
+  return H;
+}
+
+/// Grey level between pixels; NaN out of the picture.
+double greyAt(const ImageView& grey, const Vector2d& px) {
+  const double column = std::floor(px.x()), row = std::floor(px.y());
+  const bool inside = column >= 0 && row >= 0 && column < grey.width - 1 && row < grey.height - 1;
+  if (!inside) return std::numeric_limits<double>::quiet_NaN();
+  const double u = px.x() - column, v = px.y() - row;
+  const std::uint8_t* above = grey.pixels + static_cast<std::size_t>(row) * grey.row_bytes +
+                              static_cast<std::size_t>(column);
+  const std::uint8_t* below = above + grey.row_bytes;
+  return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
+}
+
+}  // namespace
+
+PrintMatch comparePrint(const ImageView& grey, const std::array<Vector2d, 4>& corners_px,
+                        const TagCells& print) {
+  const Matrix3d H = squareToPixels(corners_px);
+  std::vector<double> seen;
+  double sum[2] = {0, 0};  // of white, black cells
+  int count[2] = {0, 0};
+  for (int row = 0; row < print.size; ++row) {
+    for (int column = 0; column < print.size; ++column) {
+      const double cell = 1.0 / print.across_black;
+      const Vector3d p =
+          H * Vector3d((column - print.border + 0.5) * cell, (row - print.border + 0.5) * cell, 1);
+      seen.push_back(greyAt(grey, p.hnormalized()));
+      if (!std::isfinite(seen.back())) continue;
+      sum[print.black(column, row) ? 1 : 0] += seen.back();
+      ++count[print.black(column, row) ? 1 : 0];
+    }
+  }
+  PrintMatch match;
+  if (count[0] == 0 || count[1] == 0) return {.wrong = print.size * print.size, .margin = 0};
+  const double white = sum[0] / count[0], black = sum[1] / count[1];
+  match.margin = (white - black) / 2;
+  const double between = (white + black) / 2;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const bool right = print.is_black[i] ? seen[i] < between : seen[i] > between;
+    if (!right) ++match.wrong;
+  }
+  return match;
+}
+
+}  // namespace slamscope::tracking
