@@ -10,8 +10,8 @@
 namespace slamscope::engine {
 
 struct Offscreen::Parts {
-  Parts(std::shared_ptr<Gpu> gpu_, int width, int height, int views)
-      : gpu(std::move(gpu_)),
+  Parts(std::shared_ptr<Gpu> the_gpu, int width, int height, int views)
+      : gpu(std::move(the_gpu)),
         frame(gpu->core(), width, height, views),
         readback(gpu->core(), frame.colour().extent(), frame.colour().layers()) {}
 

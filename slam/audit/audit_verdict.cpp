@@ -109,13 +109,13 @@ AuditReport Audit::State::report() const {
       at(Law::nees).take(checkNees(*last, options.alpha / 4.0), last->sequence, last_time_s);
     }
   }
-  const auto takeNis = [&](Law law, const NisLaw& from) {
+  const auto take_nis = [&](Law law, const NisLaw& from) {
     if (from.count() == 0) return;
     const auto first = from.firstBroken();
     at(law).take(from.outcome(), first ? first->record : 0, first ? first->time_s : 0.0);
   };
-  takeNis(Law::nis, nis);
-  takeNis(Law::nis_given, nis_given);
+  take_nis(Law::nis, nis);
+  take_nis(Law::nis_given, nis_given);
   if (whiteness.count() > 0) {
     at(Law::whiteness)
         .take(whiteness.outcome(), whiteness.firstRecord().value_or(0), whiteness.firstTime());
