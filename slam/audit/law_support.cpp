@@ -45,16 +45,17 @@ std::optional<std::vector<Eigen::Vector2d>> frozenDeltas(const Transition& t,
   if (!points.after_prediction) return std::nullopt;
   std::vector<Eigen::Vector2d> deltas;
   for (const int i : observed) {
-    const auto found = points.after_prediction->features.find(t.id(i));
-    if (found == points.after_prediction->features.end()) return std::nullopt;
-    deltas.emplace_back(found->second - points.after_prediction->pose.head<2>());
+    const std::optional<Eigen::Vector2d> then = points.after_prediction->feature(t.id(i));
+    if (!then) return std::nullopt;
+    deltas.emplace_back(*then - points.after_prediction->pose.head<2>());
   }
   return deltas;
 }
 
 }  // namespace
 
-UpdateAnatomy checkSupport(const Transition& t, const LinearisationPoints& points) {
+UpdateAnatomy checkSupport(const Transition& t, const LinearisationPoints& points,
+                           ProbedChange change) {
   UpdateAnatomy anatomy;
   anatomy.observed = t.observed;
   if (!t.observed_given) {
@@ -71,7 +72,7 @@ UpdateAnatomy checkSupport(const Transition& t, const LinearisationPoints& point
     return anatomy;
   }
   anatomy.deltas = lawfulDeltas(*t.before, anatomy.observed);
-  anatomy.change = probeChange(t, 0, kProbes);
+  anatomy.change = std::move(change);
   anatomy.basis = observationBasis(t, anatomy.observed, anatomy.deltas);
   anatomy.span = orthonormal(anatomy.basis);
   anatomy.fit = fitSpan(t, anatomy.change, anatomy.span);

@@ -60,7 +60,7 @@ struct Transition {
 [[nodiscard]] Eigen::MatrixXd changeTimes(const Transition& transition, int begin,
                                           const Eigen::MatrixXd& W);
 
-/// Random signs with random sizes in [0.5, 1.5], always the same for the same seed.
-[[nodiscard]] Eigen::MatrixXd probes(int rows, int count, std::uint64_t seed);
+/// W ← random signs with random sizes in [0.5, 1.5], always the same for the same seed.
+void fillProbes(std::uint64_t seed, Eigen::Index rows, Eigen::Index count, Eigen::MatrixXd& W);
 
 }  // namespace slamscope::slam

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "slam/audit/lawful_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/audit/law_positive.hpp"
+#include "slam/audit/law_range.hpp"
+#include "slam/audit/law_shrink.hpp"
+#include "slam/audit/tall_comparison.hpp"
+
+namespace slamscope::slam {
+namespace {
+
+/// Where rounding explains more than this nothing is confirmed.
+constexpr double kMostSupport = 1e-5;
+constexpr double kMostRange = 1e-3;
+
+/// out(m) = Σ_i X(i, m)², along(m) = Σ_i X(i, m) X(i, last).
+void squaresOf(const ManyColumns& X, Eigen::Index last, Eigen::VectorXd& squares,
+               Eigen::VectorXd& along) {
+  squares.setZero(X.cols());
+  along.setZero(X.cols());
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    const auto row = X.row(i).transpose().array();
+    squares.array() += row.square();
+    along.array() += X(i, last) * row;
+  }
+}
+
+}  // namespace
+
+void LawfulUpdate::take(const Transition& t, const UpdateSweep& sweep) {
+  recognised_ = false;
+  const auto rank = 2 * static_cast<int>(t.observed.size());
+  const bool applies = t.observed_given && rank > 0 && rank < t.size() && !t.rounded &&
+                       sweep.finite() && sweep.leastVariance() >= 0.0;
+  if (!applies) return;
+  B_.take(t);
+  B_.project(sweep.blockBefore(), T_);
+  if (!fits(t, sweep) || !featuresShrink(t, sweep.diagonal(), sweep.besideDiagonal())) return;
+  B_.project(sweep.blockOfChange(), M_);
+  recognised_ = staysPositive(t, sweep) && measures(t);
+}
+
+bool LawfulUpdate::fits(const Transition& t, const UpdateSweep& sweep) {
+  tall_.setZero(sweep.columns().rows(), kComparedImages + 1);
+  tall_.leftCols<2>() = sweep.images();
+  tall_.col(2).head(t.size()) = t.meanChange();
+  tall_.col(3).head(t.size()) = t.scale;
+  const auto states = static_cast<Eigen::Index>(sweep.states().size());
+  picked_.setZero(4, states);
+  for (Eigen::Index q = 0; q < states; ++q) {
+    picked_.col(q).head<3>() = tall_.row(sweep.states()[static_cast<std::size_t>(q)]).head<3>();
+  }
+  B_.project(picked_, relative_);
+  factor_ = T_;
+  if (!factorise(factor_)) return false;
+  coefficients_ = relative_;
+  solveFour(factor_, coefficients_);
+  if (!coefficients_.allFinite()) return false;
+  B_.lift(coefficients_, weights_);  // U C = P⁻ (Bᵀ C)
+  compareTall(sweep.columns(), weights_, tall_, largest_);
+  return confirmsSupport(t) && confirmsRange(t);
+}
+
+double LawfulUpdate::errorOf(const Transition& t, int image) const {
+  double error = t.noise * std::sqrt(static_cast<double>(t.size()));
+  for (Eigen::Index m = 0; m < B_.size(); ++m) {  // an error of U counts by its weight
+    error += (t.noise * B_.sigma()[m] + 2.0 * t.mean_noise * t.sigma[2]) *
+             std::abs(coefficients_(image, m));
+  }
+  return error;
+}
+
+bool LawfulUpdate::confirmsSupport(const Transition& t) {
+  support_ = {};
+  double size = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    const double tolerance = spanTolerance(errorOf(t, k), largest_(0, k));
+    if (!(largest_(1, k) <= tolerance) || tolerance > kMostSupport * largest_(0, k)) return false;
+    size = std::max(size, largest_(0, k));
+    if (largest_(1, k) < support_.residual) continue;
+    support_ = {largest_(1, k), tolerance};
+  }
+  support_ = {support_.residual / size, support_.tolerance / size};
+  return true;
+}
+
+bool LawfulUpdate::confirmsRange(const Transition& t) {
+  range_ = {};
+  const double size = largest_(0, 2);
+  if (size == 0.0) return true;
+  range_.residual = largest_(1, 2) / size;
+  range_.tolerance = rangeTolerance(t, spanTolerance(errorOf(t, 2), size), size);
+  return range_.residual <= range_.tolerance && range_.tolerance <= kMostRange;
+}
+
+bool LawfulUpdate::staysPositive(const Transition& t, const UpdateSweep& sweep) {
+  const double tolerance = positiveTolerance(t.noise, sweep.states().size());
+  // A row's own size after the update, which may be much smaller than before.
+  const auto sigmaAfter = [&](int state) {
+    return std::sqrt(std::max(0.0, t.sigma[state] * t.sigma[state] - sweep.diagonal()[state]));
+  };
+  const Eigen::Vector3d robot(sigmaAfter(0), sigmaAfter(1), sigmaAfter(2));
+  factor_.resize(B_.size());
+  for (Eigen::Index m = 0; m < B_.size(); ++m) {
+    for (Eigen::Index i = m; i < B_.size(); ++i) factor_(i, m) = T_(i, m) - M_(i, m);
+    const double size = sigmaAfter(sweep.states()[static_cast<std::size_t>(3 + m)]) + robot[m % 2] +
+                        B_.lever(m) * robot[2];
+    factor_(m, m) += tolerance * size * size;
+  }
+  return factorise(factor_);
+}
+
+bool LawfulUpdate::measures(const Transition& t) {
+  const Eigen::Index size = B_.size();
+  factor_ = M_;
+  if (!factorise(factor_)) return false;
+  solved_.setZero(size, (2 * size + 1 + 3) / 4 * 4);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    solved_.row(i).head(size) = Eigen::Map<const Eigen::RowVectorXd>(T_.column(i), size);
+    solved_(i, size + i) = 1.0;
+    solved_(i, 2 * size) = relative_(2, i);
+  }
+  solveForward(factor_, solved_);
+  squaresOf(solved_, 2 * size, squares_, innovations_);
+  double largest = 0.0;  // trace and 1 / trace of the inverse of M, scaled by σ
+  double inverse = 0.0;
+  for (Eigen::Index m = 0; m < size; ++m) {
+    const double variance = B_.sigma()[m] * B_.sigma()[m];
+    largest += M_(m, m) / variance;
+    inverse += variance * squares_[size + m];
+  }
+  const double least = 1.0 / inverse;
+  if (!(least > leastResolved(t, size + 3, largest))) return false;
+  innovation_.nis = squares_[2 * size];
+  innovation_.dof = static_cast<int>(size);
+  innovation_.features.resize(t.observed.size());
+  for (Eigen::Index k = 0; k < size / 2; ++k) measureFeature(t, k, least);
+  return true;
+}
+
+void LawfulUpdate::measureFeature(const Transition& t, Eigen::Index k, double least) {
+  const Eigen::Index column = 2 * k;
+  FeatureInnovation& one = innovation_.features[static_cast<std::size_t>(k)];
+  one.id = t.id(t.observed[static_cast<std::size_t>(k)]);
+  one.dof = 2;
+  const double cross = solved_.col(column).dot(solved_.col(column + 1));
+  Eigen::Matrix2d S;
+  S << squares_[column], cross, cross, squares_[column + 1];
+  const Eigen::Vector2d nu = innovations_.segment<2>(column);
+  one.nis = nu.dot(S.inverse() * nu);
+  Eigen::Matrix2d T;
+  T << T_(column, column), T_(column + 1, column), T_(column + 1, column),
+      T_(column + 1, column + 1);
+  one.R_map = S - T;
+  one.R_error = noiseError(t, least, S, one.R_map);
+}
+
+}  // namespace slamscope::slam

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "slam/audit/small_cholesky.hpp"
+
+#include <cmath>
+
+#include "slam/vector4.hpp"
+
+namespace slamscope::slam {
+namespace {
+
+[[gnu::always_inline]] inline Vector4& at(double* place) {
+  return *reinterpret_cast<Vector4*>(place);
+}
+
+[[gnu::always_inline]] inline const Vector4& at(const double* place) {
+  return *reinterpret_cast<const Vector4*>(place);
+}
+
+/// Rows of X are `stride` apart; columns `first` to first + 4 Width.
+template <int Width>
+[[gnu::always_inline]] inline void forwardBlock(const double* L, std::ptrdiff_t size,
+                                                std::ptrdiff_t L_stride, double* X,
+                                                std::ptrdiff_t stride) {
+  for (std::ptrdiff_t i = 0; i < size; ++i) {
+    Vector4 sum[Width];
+    for (int k = 0; k < Width; ++k) sum[k] = at(X + i * stride + 4 * k);
+    for (std::ptrdiff_t j = 0; j < i; ++j) {
+      const double l = L[j * L_stride + i];
+      for (int k = 0; k < Width; ++k) sum[k] -= l * at(X + j * stride + 4 * k);
+    }
+    const double inverse = 1.0 / L[i * L_stride + i];
+    for (int k = 0; k < Width; ++k) at(X + i * stride + 4 * k) = inverse * sum[k];
+  }
+}
+
+SLAMSCOPE_FMA_CLONES
+bool factoriseColumns(double* A, std::ptrdiff_t size, std::ptrdiff_t stride) {
+  for (std::ptrdiff_t j = 0; j < size; ++j) {
+    double* const column = A + j * stride;
+    if (!(column[j] > 0.0)) return false;
+    const double inverse = 1.0 / std::sqrt(column[j]);
+    // From the four that hold the diagonal on: what is above it may become anything.
+    for (std::ptrdiff_t i = j / 4 * 4; i < stride; i += 4) at(column + i) *= inverse;
+    for (std::ptrdiff_t k = j + 1; k < size; ++k) {
+      double* const other = A + k * stride;
+      const double factor = column[k];
+      for (std::ptrdiff_t i = k / 4 * 4; i < stride; i += 4) {
+        at(other + i) -= factor * at(column + i);
+      }
+    }
+  }
+  return true;
+}
+
+SLAMSCOPE_FMA_CLONES
+void solveFourColumns(const double* L, std::ptrdiff_t size, std::ptrdiff_t stride, double* X) {
+  for (std::ptrdiff_t j = 0; j < size; ++j) {
+    const double* const column = L + j * stride;
+    const Vector4 x = at(X + 4 * j) * (1.0 / column[j]);
+    at(X + 4 * j) = x;
+    for (std::ptrdiff_t i = j + 1; i < size; ++i) at(X + 4 * i) -= column[i] * x;
+  }
+  for (std::ptrdiff_t j = size - 1; j >= 0; --j) {
+    const double* const column = L + j * stride;
+    Vector4 even = at(X + 4 * j), odd{};
+    std::ptrdiff_t i = j + 1;
+    for (; i + 2 <= size; i += 2) {
+      even -= column[i] * at(X + 4 * i);
+      odd -= column[i + 1] * at(X + 4 * (i + 1));
+    }
+    if (i < size) even -= column[i] * at(X + 4 * i);
+    at(X + 4 * j) = (even + odd) * (1.0 / column[j]);
+  }
+}
+
+SLAMSCOPE_FMA_CLONES
+void solveForwardRows(const double* L, std::ptrdiff_t size, std::ptrdiff_t L_stride, double* X,
+                      std::ptrdiff_t columns) {
+  std::ptrdiff_t first = 0;
+  for (; first + 16 <= columns; first += 16) {
+    forwardBlock<4>(L, size, L_stride, X + first, columns);
+  }
+  for (; first < columns; first += 4) forwardBlock<1>(L, size, L_stride, X + first, columns);
+}
+
+}  // namespace
+
+void SmallMatrix::resize(Eigen::Index size) {
+  if (size == size_) return;
+  size_ = size;
+  numbers_.setZero((size + 3) / 4 * 4, size);
+}
+
+bool factorise(SmallMatrix& A) {
+  return factoriseColumns(A.column(0), A.size(), A.stride());
+}
+
+void solveFour(const SmallMatrix& L, FourColumns& X) {
+  solveFourColumns(L.column(0), L.size(), L.stride(), X.data());
+}
+
+void solveForward(const SmallMatrix& L, ManyColumns& X) {
+  solveForwardRows(L.column(0), L.size(), L.stride(), X.data(), X.cols());
+}
+
+}  // namespace slamscope::slam

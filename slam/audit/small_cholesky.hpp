@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+namespace slamscope::slam {
+
+/// A square matrix of a few dozen rows for the functions below: stored by columns of a multiple of
+/// four numbers, so that no loop has a remainder.
+class SmallMatrix {
+ public:
+  /// Keeps its memory where that suffices; the numbers are then whatever they were.
+  void resize(Eigen::Index size);
+
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+  [[nodiscard]] Eigen::Index stride() const { return numbers_.rows(); }
+  [[nodiscard]] double operator()(Eigen::Index row, Eigen::Index col) const {
+    return numbers_(row, col);
+  }
+  double& operator()(Eigen::Index row, Eigen::Index col) { return numbers_(row, col); }
+  [[nodiscard]] const double* column(Eigen::Index col) const { return numbers_.col(col).data(); }
+  [[nodiscard]] double* column(Eigen::Index col) { return numbers_.col(col).data(); }
+
+ private:
+  Eigen::Index size_ = 0;
+  Eigen::MatrixXd numbers_;
+};
+
+/// A ← L with A = L Lᵀ, reading and writing the lower triangle; above it stands no meaning then.
+/// False where A is not positive definite: A is undefined.
+[[nodiscard]] bool factorise(SmallMatrix& A);
+
+/// Right-hand sides, each row a column of four numbers.
+using FourColumns = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+/// X ← A⁻¹ X by the factor L of A.
+void solveFour(const SmallMatrix& L, FourColumns& X);
+
+/// X ← L⁻¹ X for X as columns of `X`ᵀ: each row of X holds so many right-hand sides, a multiple of
+/// four.
+using ManyColumns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+void solveForward(const SmallMatrix& L, ManyColumns& X);
+
+}  // namespace slamscope::slam
