@@ -12,9 +12,14 @@
 namespace slamscope::slam {
 namespace {
 
-/// Where rounding explains more than this nothing is confirmed.
-constexpr double kMostSupport = 1e-5;
-constexpr double kMostRange = 1e-3;
+/// Where rounding could hide more than this share nothing is confirmed.
+constexpr double kMostUnseen = 0.05;
+
+/// Error of an image of D. Those of U, times their weights, come on top, but a filter that
+/// calculates with doubles keeps far below, and what stays within this alone is beyond doubt.
+double roundingOf(const Transition& t) {
+  return t.noise * std::sqrt(static_cast<double>(t.size()));
+}
 
 /// out(m) = Σ_i X(i, m)², along(m) = Σ_i X(i, m) X(i, last).
 void squaresOf(const ManyColumns& X, Eigen::Index last, Eigen::VectorXd& squares,
@@ -64,21 +69,12 @@ bool LawfulUpdate::fits(const Transition& t, const UpdateSweep& sweep) {
   return confirmsSupport(t) && confirmsRange(t);
 }
 
-double LawfulUpdate::errorOf(const Transition& t, int image) const {
-  double error = t.noise * std::sqrt(static_cast<double>(t.size()));
-  for (Eigen::Index m = 0; m < B_.size(); ++m) {  // an error of U counts by its weight
-    error += (t.noise * B_.sigma()[m] + 2.0 * t.mean_noise * t.sigma[2]) *
-             std::abs(coefficients_(image, m));
-  }
-  return error;
-}
-
 bool LawfulUpdate::confirmsSupport(const Transition& t) {
   support_ = {};
   double size = 0.0;
   for (int k = 0; k < 2; ++k) {
-    const double tolerance = spanTolerance(errorOf(t, k), largest_(0, k));
-    if (!(largest_(1, k) <= tolerance) || tolerance > kMostSupport * largest_(0, k)) return false;
+    const double tolerance = spanTolerance(roundingOf(t), largest_(0, k));
+    if (!(largest_(1, k) <= tolerance) || tolerance > kMostUnseen * largest_(0, k)) return false;
     size = std::max(size, largest_(0, k));
     if (largest_(1, k) < support_.residual) continue;
     support_ = {largest_(1, k), tolerance};
@@ -92,8 +88,8 @@ bool LawfulUpdate::confirmsRange(const Transition& t) {
   const double size = largest_(0, 2);
   if (size == 0.0) return true;
   range_.residual = largest_(1, 2) / size;
-  range_.tolerance = rangeTolerance(t, spanTolerance(errorOf(t, 2), size), size);
-  return range_.residual <= range_.tolerance && range_.tolerance <= kMostRange;
+  range_.tolerance = rangeTolerance(t, spanTolerance(roundingOf(t), size), size);
+  return range_.residual <= range_.tolerance && range_.tolerance <= kMostUnseen;
 }
 
 bool LawfulUpdate::staysPositive(const Transition& t, const UpdateSweep& sweep) {

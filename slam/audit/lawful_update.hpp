@@ -48,7 +48,6 @@ class LawfulUpdate {
   bool fits(const Transition& t, const UpdateSweep& sweep);
   bool confirmsSupport(const Transition& t);
   bool confirmsRange(const Transition& t);
-  [[nodiscard]] double errorOf(const Transition& t, int image) const;
   bool staysPositive(const Transition& t, const UpdateSweep& sweep);
   bool measures(const Transition& t);
   void measureFeature(const Transition& t, Eigen::Index k, double least);
