@@ -160,7 +160,7 @@ std::optional<Transition> Audit::State::lookAt(const SnapshotPtr& snapshot) {
   if (!last || !last_finite || s.event == Event::initial || s.event == Event::remove) return {};
   Transition t = lineUp(last, snapshot, exactness());
   swept = s.event == Event::update && t.shared == s.featureCount() && s.extra.empty() &&
-          !diagonal_only && options.means_known;
+          !diagonal_only && options.means_known && !t.rounded;
   if (swept) {
     sweep.take(t);
     lawful.take(t, sweep);

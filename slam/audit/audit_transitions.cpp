@@ -108,7 +108,7 @@ void Audit::State::judgeUpdate(const Transition& t) {
     judgeLawfulUpdate(t);
     return;
   }
-  UpdateAnatomy anatomy = checkSupport(t, points, sweep.change(t));
+  UpdateAnatomy anatomy = checkSupport(t, points);
   const InnovationEstimate estimate = estimateInnovation(t, anatomy);
   tellUsedTwice(estimate, anatomy);
   hint(anatomy.allow);

@@ -96,7 +96,7 @@ double headingCorrelation(const Transition& t, const FeatureInnovation& one, int
 
 double leastResolved(const Transition& t, Eigen::Index rows, double largest) {
   const double size = std::sqrt(static_cast<double>(rows));
-  const double mean_noise = 2.0 * t.mean_noise * t.scale.maxCoeff();
+  const double mean_noise = 2.0 * t.mean_noise * t.largest_scale;
   return std::max({100.0 * t.noise * size, 1e-9 * largest, 100.0 * mean_noise * mean_noise});
 }
 

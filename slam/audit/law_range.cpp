@@ -25,7 +25,7 @@ SpanBasis spanOf(const Transition& t, const UpdateAnatomy& anatomy) {
 }  // namespace
 
 double rangeTolerance(const Transition& t, double span, double size) {
-  const double rounding = 2.0 * t.mean_noise * t.scale.maxCoeff();
+  const double rounding = 2.0 * t.mean_noise * t.largest_scale;
   return 1e-5 + (span + 8.0 * rounding) / size;
 }
 

@@ -54,8 +54,7 @@ std::optional<std::vector<Eigen::Vector2d>> frozenDeltas(const Transition& t,
 
 }  // namespace
 
-UpdateAnatomy checkSupport(const Transition& t, const LinearisationPoints& points,
-                           ProbedChange change) {
+UpdateAnatomy checkSupport(const Transition& t, const LinearisationPoints& points) {
   UpdateAnatomy anatomy;
   anatomy.observed = t.observed;
   if (!t.observed_given) {
@@ -72,7 +71,7 @@ UpdateAnatomy checkSupport(const Transition& t, const LinearisationPoints& point
     return anatomy;
   }
   anatomy.deltas = lawfulDeltas(*t.before, anatomy.observed);
-  anatomy.change = std::move(change);
+  anatomy.change = probeChange(t, 0, kProbes);
   anatomy.basis = observationBasis(t, anatomy.observed, anatomy.deltas);
   anatomy.span = orthonormal(anatomy.basis);
   anatomy.fit = fitSpan(t, anatomy.change, anatomy.span);

@@ -41,9 +41,8 @@ struct UpdateAnatomy {
 /// were written outside the update. Otherwise the δ_i = l_i − p is solved for at which the filter
 /// did linearise (linear: P⁻B_iᵀ is affine in δ_i), and the feature whose block H was written to.
 /// Whole at the mean after the last prediction counts as whole (frozen linearisation).
-/// `change`: D of all states through at least two vectors.
 [[nodiscard]] UpdateAnatomy checkSupport(const Transition& transition,
-                                         const LinearisationPoints& points, ProbedChange change);
+                                         const LinearisationPoints& points);
 
 /// support again, once the innovations are known: a heading that comes with the noise of an
 /// observation is no compass, but that observation used twice.

@@ -21,15 +21,15 @@ double roundingOf(const Transition& t) {
   return t.noise * std::sqrt(static_cast<double>(t.size()));
 }
 
-/// out(m) = Σ_i X(i, m)², along(m) = Σ_i X(i, m) X(i, last).
-void squaresOf(const ManyColumns& X, Eigen::Index last, Eigen::VectorXd& squares,
+/// squares(m) = Σ_i X(i, m)², along(m) = Σ_i X(i, m) X(i, column).
+void squaresOf(const ManyColumns& X, Eigen::Index column, Eigen::VectorXd& squares,
                Eigen::VectorXd& along) {
   squares.setZero(X.cols());
   along.setZero(X.cols());
   for (Eigen::Index i = 0; i < X.rows(); ++i) {
     const auto row = X.row(i).transpose().array();
     squares.array() += row.square();
-    along.array() += X(i, last) * row;
+    along.array() += X(i, column) * row;
   }
 }
 
@@ -38,25 +38,26 @@ void squaresOf(const ManyColumns& X, Eigen::Index last, Eigen::VectorXd& squares
 void LawfulUpdate::take(const Transition& t, const UpdateSweep& sweep) {
   recognised_ = false;
   const auto rank = 2 * static_cast<int>(t.observed.size());
-  const bool applies = t.observed_given && rank > 0 && rank < t.size() && !t.rounded &&
+  const bool applies = t.observed_given && rank > 0 && rank < t.size() &&
+                       !t.rounded &&
                        sweep.finite() && sweep.leastVariance() >= 0.0;
   if (!applies) return;
   B_.take(t);
   B_.project(sweep.blockBefore(), T_);
   if (!fits(t, sweep) || !featuresShrink(t, sweep.diagonal(), sweep.besideDiagonal())) return;
   B_.project(sweep.blockOfChange(), M_);
-  recognised_ = staysPositive(t, sweep) && measures(t);
+  recognised_ = shrinksAndStaysPositive(t, sweep) && measures(t);
 }
 
 bool LawfulUpdate::fits(const Transition& t, const UpdateSweep& sweep) {
   tall_.setZero(sweep.columns().rows(), kComparedImages + 1);
-  tall_.leftCols<2>() = sweep.images();
-  tall_.col(2).head(t.size()) = t.meanChange();
-  tall_.col(3).head(t.size()) = t.scale;
+  tall_.col(0) = sweep.image();
+  tall_.col(1).head(t.size()) = t.meanChange();
+  tall_.col(2).head(t.size()) = t.scale;
   const auto states = static_cast<Eigen::Index>(sweep.states().size());
   picked_.setZero(4, states);
   for (Eigen::Index q = 0; q < states; ++q) {
-    picked_.col(q).head<3>() = tall_.row(sweep.states()[static_cast<std::size_t>(q)]).head<3>();
+    picked_.col(q).head<2>() = tall_.row(sweep.states()[static_cast<std::size_t>(q)]).head<2>();
   }
   B_.project(picked_, relative_);
   factor_ = T_;
@@ -64,73 +65,68 @@ bool LawfulUpdate::fits(const Transition& t, const UpdateSweep& sweep) {
   coefficients_ = relative_;
   solveFour(factor_, coefficients_);
   if (!coefficients_.allFinite()) return false;
-  B_.lift(coefficients_, weights_);  // U C = P⁻ (Bᵀ C)
+  B_.lift(coefficients_, weights_);  // U c = P⁻ (Bᵀ c)
   compareTall(sweep.columns(), weights_, tall_, largest_);
   return confirmsSupport(t) && confirmsRange(t);
 }
 
 bool LawfulUpdate::confirmsSupport(const Transition& t) {
-  support_ = {};
-  double size = 0.0;
-  for (int k = 0; k < 2; ++k) {
-    const double tolerance = spanTolerance(roundingOf(t), largest_(0, k));
-    if (!(largest_(1, k) <= tolerance) || tolerance > kMostUnseen * largest_(0, k)) return false;
-    size = std::max(size, largest_(0, k));
-    if (largest_(1, k) < support_.residual) continue;
-    support_ = {largest_(1, k), tolerance};
-  }
-  support_ = {support_.residual / size, support_.tolerance / size};
-  return true;
+  const double size = largest_(0, 0);
+  support_.residual = largest_(1, 0) / size;
+  support_.tolerance = spanTolerance(roundingOf(t), size) / size;
+  return support_.residual <= support_.tolerance && support_.tolerance <= kMostUnseen;
 }
 
 bool LawfulUpdate::confirmsRange(const Transition& t) {
   range_ = {};
-  const double size = largest_(0, 2);
+  const double size = largest_(0, 1);
   if (size == 0.0) return true;
-  range_.residual = largest_(1, 2) / size;
+  range_.residual = largest_(1, 1) / size;
   range_.tolerance = rangeTolerance(t, spanTolerance(roundingOf(t), size), size);
   return range_.residual <= range_.tolerance && range_.tolerance <= kMostUnseen;
 }
 
-bool LawfulUpdate::staysPositive(const Transition& t, const UpdateSweep& sweep) {
+bool LawfulUpdate::shrinksAndStaysPositive(const Transition& t, const UpdateSweep& sweep) {
   const double tolerance = positiveTolerance(t.noise, sweep.states().size());
   // A row's own size after the update, which may be much smaller than before.
   const auto sigmaAfter = [&](int state) {
     return std::sqrt(std::max(0.0, t.sigma[state] * t.sigma[state] - sweep.diagonal()[state]));
   };
   const Eigen::Vector3d robot(sigmaAfter(0), sigmaAfter(1), sigmaAfter(2));
-  factor_.resize(B_.size());
+  rest_.resize(B_.size());
   for (Eigen::Index m = 0; m < B_.size(); ++m) {
-    for (Eigen::Index i = m; i < B_.size(); ++i) factor_(i, m) = T_(i, m) - M_(i, m);
+    const Eigen::Index rows = B_.size() - m;
+    Eigen::Map<Eigen::ArrayXd>(rest_.column(m) + m, rows) =
+        Eigen::Map<const Eigen::ArrayXd>(T_.column(m) + m, rows) -
+        Eigen::Map<const Eigen::ArrayXd>(M_.column(m) + m, rows);
     const double size = sigmaAfter(sweep.states()[static_cast<std::size_t>(3 + m)]) + robot[m % 2] +
                         B_.lever(m) * robot[2];
-    factor_(m, m) += tolerance * size * size;
+    rest_(m, m) += tolerance * size * size;
   }
-  return factorise(factor_);
+  factor_ = M_;
+  return factoriseBoth(factor_, rest_);
 }
 
 bool LawfulUpdate::measures(const Transition& t) {
   const Eigen::Index size = B_.size();
-  factor_ = M_;
-  if (!factorise(factor_)) return false;
   solved_.setZero(size, (2 * size + 1 + 3) / 4 * 4);
   for (Eigen::Index i = 0; i < size; ++i) {
     solved_.row(i).head(size) = Eigen::Map<const Eigen::RowVectorXd>(T_.column(i), size);
-    solved_(i, size + i) = 1.0;
-    solved_(i, 2 * size) = relative_(2, i);
+    solved_(i, size) = relative_(1, i);
+    solved_(i, size + 1 + i) = 1.0;
   }
-  solveForward(factor_, solved_);
-  squaresOf(solved_, 2 * size, squares_, innovations_);
-  double largest = 0.0;  // trace and 1 / trace of the inverse of M, scaled by σ
+  solveForward(factor_, solved_, size + 1);
+  squaresOf(solved_, size, squares_, innovations_);
+  double largest = 0.0;  // trace of M, scaled by σ, and of its inverse
   double inverse = 0.0;
   for (Eigen::Index m = 0; m < size; ++m) {
     const double variance = B_.sigma()[m] * B_.sigma()[m];
     largest += M_(m, m) / variance;
-    inverse += variance * squares_[size + m];
+    inverse += variance * squares_[size + 1 + m];
   }
   const double least = 1.0 / inverse;
   if (!(least > leastResolved(t, size + 3, largest))) return false;
-  innovation_.nis = squares_[2 * size];
+  innovation_.nis = squares_[size];
   innovation_.dof = static_cast<int>(size);
   innovation_.features.resize(t.observed.size());
   for (Eigen::Index k = 0; k < size / 2; ++k) measureFeature(t, k, least);

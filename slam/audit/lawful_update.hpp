@@ -20,8 +20,9 @@ namespace slamscope::slam {
 /// Everything happens where the update was made, in the r = 2 |O| places of the observed features
 /// relative to the robot. With U = P⁻Bᵀ a lawful update is D = U S̃⁻¹ Uᵀ and Δx = U S̃⁻¹ ν̃. So with
 /// T = B P⁻ Bᵀ, r×r and regular,
-///   D Ω = U C, C = T⁻¹ B D Ω      support, rank: any C that fits shows that D lies in the span
-///   Δx = U c, c = T⁻¹ B Δx        range
+///   D ω = U c, c = T⁻¹ B D ω      support, rank: any c that fits a random ω shows that D lies in
+///                                 the span of U, but for a chance that nobody lives to see
+///   Δx = U c', c' = T⁻¹ B Δx      range
 ///   M = B D Bᵀ = T S̃⁻¹ T ≻ 0      shrink
 ///   B P⁺ Bᵀ = T − M ⪰ 0           positive, where P⁻ was
 ///   ν̃ = T M⁻¹ B Δx, S̃ = T M⁻¹ T  nis, sensor-noise (innovation_estimate.hpp)
@@ -48,7 +49,7 @@ class LawfulUpdate {
   bool fits(const Transition& t, const UpdateSweep& sweep);
   bool confirmsSupport(const Transition& t);
   bool confirmsRange(const Transition& t);
-  bool staysPositive(const Transition& t, const UpdateSweep& sweep);
+  bool shrinksAndStaysPositive(const Transition& t, const UpdateSweep& sweep);
   bool measures(const Transition& t);
   void measureFeature(const Transition& t, Eigen::Index k, double least);
 
@@ -58,14 +59,16 @@ class LawfulUpdate {
   InnovationEstimate innovation_;
 
   RelativeCoordinates B_;
-  SmallMatrix T_, M_, factor_;
-  Eigen::MatrixXd tall_;        ///< columns D Ω, Δx, 1 / √diag P⁻
-  Eigen::Array2Xd largest_;     ///< entry of each of D Ω, Δx, scaled: all of it, outside of the span
-  FourColumns picked_;          ///< D Ω and Δx at the states of robot and observed features
-  FourColumns relative_;        ///< B times these
-  FourColumns coefficients_;    ///< C and c
-  FourColumns weights_;         ///< Bᵀ C and Bᵀ c
-  ManyColumns solved_;          ///< L⁻¹ [T, I, B Δx], M = L Lᵀ
+  SmallMatrix T_, M_;
+  SmallMatrix rest_;    ///< T − M
+  SmallMatrix factor_;  ///< of T, then of M
+  Eigen::MatrixXd tall_;      ///< columns D ω, Δx, 1 / √diag P⁻
+  Eigen::Array2Xd largest_;   ///< entry of D ω and Δx, scaled: all of it, outside of the span
+  FourColumns picked_;        ///< D ω and Δx at the states of robot and observed features
+  FourColumns relative_;      ///< B times these
+  FourColumns coefficients_;  ///< c and c'
+  FourColumns weights_;       ///< Bᵀ c and Bᵀ c'
+  ManyColumns solved_;          ///< L⁻¹ [T, B Δx, I], M = L Lᵀ
   Eigen::VectorXd squares_;     ///< of the columns of solved_
   Eigen::VectorXd innovations_; ///< ν̃
 };

@@ -6,6 +6,10 @@
 namespace slamscope::slam {
 namespace {
 
+/// So many rows share what is fetched and stored of w and its image: with four of them the sums stay
+/// in registers.
+constexpr int kRows = 4;
+
 [[gnu::always_inline]] inline double sumOf(const Vector4& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
@@ -18,63 +22,50 @@ namespace {
   return *reinterpret_cast<Vector4*>(place);
 }
 
-/// One row: columns before the diagonal, and the diagonal.
-[[gnu::always_inline]] inline void addRow(const double* a, const double* b, std::ptrdiff_t i,
-                                          const TwoImages& x) {
-  Vector4 of_w{}, of_v{};
-  const double w = x.w[i], v = x.v[i];
+/// Rows i … i + Rows − 1 with all of their columns.
+template <int Rows>
+[[gnu::always_inline]] inline void addRows(const PackedChange& D, std::ptrdiff_t i, const double* w,
+                                           double* image) {
+  const double* a[Rows];
+  const double* b[Rows];
+  double own[Rows], sum[Rows];
+  Vector4 sums[Rows]{};
+  for (int k = 0; k < Rows; ++k) {
+    a[k] = D.rowBefore(i + k);
+    b[k] = D.rowAfter(i + k);
+    own[k] = w[i + k];
+  }
   std::ptrdiff_t j = 0;
   for (; j + 4 <= i; j += 4) {
-    const Vector4 d = at(a + j) - at(b + j);
-    of_w += d * at(x.w + j), of_v += d * at(x.v + j);
-    at(x.of_w + j) += w * d, at(x.of_v + j) += v * d;
+    const Vector4 w_j = at(w + j);
+    Vector4 image_j = at(image + j);
+    for (int k = 0; k < Rows; ++k) {
+      const Vector4 d = at(a[k] + j) - at(b[k] + j);
+      sums[k] += d * w_j;
+      image_j += own[k] * d;
+    }
+    at(image + j) = image_j;
   }
-  double sum_w = sumOf(of_w), sum_v = sumOf(of_v);
-  for (; j < i; ++j) {
-    const double d = a[j] - b[j];
-    sum_w += d * x.w[j], sum_v += d * x.v[j];
-    x.of_w[j] += d * w, x.of_v[j] += d * v;
+  for (int k = 0; k < Rows; ++k) sum[k] = sumOf(sums[k]);
+  for (; j < i + Rows; ++j) {  // the last columns, those of the rows themselves among them
+    for (int k = 0; k < Rows; ++k) {
+      if (j > i + k) continue;
+      const double d = a[k][j] - b[k][j];
+      sum[k] += d * w[j];
+      if (j < i + k) image[j] += d * own[k];
+    }
   }
-  const double d = a[i] - b[i];
-  x.of_w[i] += sum_w + d * w, x.of_v[i] += sum_v + d * v;
-}
-
-/// Rows i and i + 1 up to column i − 1: half the loads and stores of the vectors and images.
-[[gnu::always_inline]] inline void addTwoRows(const PackedChange& D, std::ptrdiff_t i,
-                                              const TwoImages& x) {
-  const double* const a = D.rowBefore(i);
-  const double* const b = D.rowAfter(i);
-  const double* const a2 = D.rowBefore(i + 1);
-  const double* const b2 = D.rowAfter(i + 1);
-  const double w = x.w[i], v = x.v[i], w2 = x.w[i + 1], v2 = x.v[i + 1];
-  Vector4 of_w{}, of_v{}, of_w2{}, of_v2{};
-  std::ptrdiff_t j = 0;
-  for (; j + 4 <= i; j += 4) {
-    const Vector4 d = at(a + j) - at(b + j), d2 = at(a2 + j) - at(b2 + j);
-    const Vector4 w_j = at(x.w + j), v_j = at(x.v + j);
-    of_w += d * w_j, of_v += d * v_j, of_w2 += d2 * w_j, of_v2 += d2 * v_j;
-    at(x.of_w + j) += w * d + w2 * d2, at(x.of_v + j) += v * d + v2 * d2;
-  }
-  double sum_w = sumOf(of_w), sum_v = sumOf(of_v), sum_w2 = sumOf(of_w2), sum_v2 = sumOf(of_v2);
-  for (; j < i; ++j) {
-    const double d = a[j] - b[j], d2 = a2[j] - b2[j];
-    sum_w += d * x.w[j], sum_v += d * x.v[j], sum_w2 += d2 * x.w[j], sum_v2 += d2 * x.v[j];
-    x.of_w[j] += d * w + d2 * w2, x.of_v[j] += d * v + d2 * v2;
-  }
-  // The corner: D(i, i), D(i + 1, i), D(i + 1, i + 1).
-  const double d = a[i] - b[i], d21 = a2[i] - b2[i], d22 = a2[i + 1] - b2[i + 1];
-  x.of_w[i] += sum_w + d * w + d21 * w2, x.of_v[i] += sum_v + d * v + d21 * v2;
-  x.of_w[i + 1] += sum_w2 + d21 * w + d22 * w2, x.of_v[i + 1] += sum_v2 + d21 * v + d22 * v2;
+  for (int k = 0; k < Rows; ++k) image[i + k] += sum[k];
 }
 
 }  // namespace
 
 SLAMSCOPE_FMA_CLONES
-void addImages(const PackedChange& D, std::ptrdiff_t first, std::ptrdiff_t last,
-               const TwoImages& images) {
+void addImage(const PackedChange& D, std::ptrdiff_t first, std::ptrdiff_t last, const double* w,
+              double* image) {
   std::ptrdiff_t i = first;
-  for (; i + 2 <= last; i += 2) addTwoRows(D, i, images);
-  if (i < last) addRow(D.rowBefore(i), D.rowAfter(i), i, images);
+  for (; i + kRows <= last; i += kRows) addRows<kRows>(D, i, w, image);
+  for (; i < last; ++i) addRows<1>(D, i, w, image);
 }
 
 }  // namespace slamscope::slam

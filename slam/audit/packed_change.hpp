@@ -23,17 +23,9 @@ struct PackedChange {
   }
 };
 
-/// Two vectors and their images under D.
-struct TwoImages {
-  const double* w = nullptr;
-  const double* v = nullptr;
-  double* of_w = nullptr;  ///< D w is added
-  double* of_v = nullptr;  ///< D v is added
-};
-
 /// What rows `first` … `last` − 1 of the lower triangle, and what stands mirrored above it, add to
-/// D w and D v. Each entry is fetched once for both triangles and both vectors.
-void addImages(const PackedChange& D, std::ptrdiff_t first, std::ptrdiff_t last,
-               const TwoImages& images);
+/// the image D w. Each entry is fetched once for both triangles.
+void addImage(const PackedChange& D, std::ptrdiff_t first, std::ptrdiff_t last, const double* w,
+              double* image);
 
 }  // namespace slamscope::slam

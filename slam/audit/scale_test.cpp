@@ -17,7 +17,7 @@ double logMeanExp(const std::array<double, Count>& logs) {
 
 /// peak ← the larger of it and log of the mean, which is never more than the largest of them.
 template <std::size_t Count>
-void raise(double& peak, const std::array<double, Count>& logs) {
+void raisePeak(double& peak, const std::array<double, Count>& logs) {
   if (*std::max_element(logs.begin(), logs.end()) > peak) peak = std::max(peak, logMeanExp(logs));
 }
 
@@ -42,8 +42,8 @@ void ScaleTest::take(double q, int dof) {
     above_[k] += -0.5 * dof * logs[k] + 0.5 * q / band_.high * (1.0 - 1.0 / f);
     below_[k] += 0.5 * dof * logs[k] + 0.5 * q / band_.low * (1.0 - f);
   }
-  raise(peak_above_, above_);
-  raise(peak_below_, below_);
+  raisePeak(peak_above_, above_);
+  raisePeak(peak_below_, below_);
 }
 
 double ScaleTest::evidence() const {

@@ -16,15 +16,15 @@ namespace {
   return *reinterpret_cast<const Vector4*>(place);
 }
 
-/// Rows of X are `stride` apart; columns `first` to first + 4 Width.
+/// X ← L⁻¹ X for 4 Width columns whose rows are `stride` apart and zero before row `begin`.
 template <int Width>
 [[gnu::always_inline]] inline void forwardBlock(const double* L, std::ptrdiff_t size,
                                                 std::ptrdiff_t L_stride, double* X,
-                                                std::ptrdiff_t stride) {
-  for (std::ptrdiff_t i = 0; i < size; ++i) {
+                                                std::ptrdiff_t stride, std::ptrdiff_t begin) {
+  for (std::ptrdiff_t i = begin; i < size; ++i) {
     Vector4 sum[Width];
     for (int k = 0; k < Width; ++k) sum[k] = at(X + i * stride + 4 * k);
-    for (std::ptrdiff_t j = 0; j < i; ++j) {
+    for (std::ptrdiff_t j = begin; j < i; ++j) {
       const double l = L[j * L_stride + i];
       for (int k = 0; k < Width; ++k) sum[k] -= l * at(X + j * stride + 4 * k);
     }
@@ -33,21 +33,27 @@ template <int Width>
   }
 }
 
+/// Column j of the factor, and what it takes from those after it.
+[[gnu::always_inline]] inline bool eliminate(double* A, std::ptrdiff_t size, std::ptrdiff_t stride,
+                                             std::ptrdiff_t j) {
+  double* const column = A + j * stride;
+  if (!(column[j] > 0.0)) return false;
+  const double inverse = 1.0 / std::sqrt(column[j]);
+  // From the four that hold the diagonal on: what is above it may become anything.
+  for (std::ptrdiff_t i = j / 4 * 4; i < stride; i += 4) at(column + i) *= inverse;
+  for (std::ptrdiff_t k = j + 1; k < size; ++k) {
+    double* const other = A + k * stride;
+    const double factor = column[k];
+    for (std::ptrdiff_t i = k / 4 * 4; i < stride; i += 4) at(other + i) -= factor * at(column + i);
+  }
+  return true;
+}
+
 SLAMSCOPE_FMA_CLONES
-bool factoriseColumns(double* A, std::ptrdiff_t size, std::ptrdiff_t stride) {
+bool factoriseColumns(double* A, double* B, std::ptrdiff_t size, std::ptrdiff_t stride) {
   for (std::ptrdiff_t j = 0; j < size; ++j) {
-    double* const column = A + j * stride;
-    if (!(column[j] > 0.0)) return false;
-    const double inverse = 1.0 / std::sqrt(column[j]);
-    // From the four that hold the diagonal on: what is above it may become anything.
-    for (std::ptrdiff_t i = j / 4 * 4; i < stride; i += 4) at(column + i) *= inverse;
-    for (std::ptrdiff_t k = j + 1; k < size; ++k) {
-      double* const other = A + k * stride;
-      const double factor = column[k];
-      for (std::ptrdiff_t i = k / 4 * 4; i < stride; i += 4) {
-        at(other + i) -= factor * at(column + i);
-      }
-    }
+    if (!eliminate(A, size, stride, j)) return false;
+    if (B != nullptr && !eliminate(B, size, stride, j)) return false;
   }
   return true;
 }
@@ -75,12 +81,15 @@ void solveFourColumns(const double* L, std::ptrdiff_t size, std::ptrdiff_t strid
 
 SLAMSCOPE_FMA_CLONES
 void solveForwardRows(const double* L, std::ptrdiff_t size, std::ptrdiff_t L_stride, double* X,
-                      std::ptrdiff_t columns) {
+                      std::ptrdiff_t columns, std::ptrdiff_t identity) {
   std::ptrdiff_t first = 0;
+  const auto begin = [&] { return first > identity ? first - identity : 0; };
   for (; first + 16 <= columns; first += 16) {
-    forwardBlock<4>(L, size, L_stride, X + first, columns);
+    forwardBlock<4>(L, size, L_stride, X + first, columns, begin());
   }
-  for (; first < columns; first += 4) forwardBlock<1>(L, size, L_stride, X + first, columns);
+  for (; first < columns; first += 4) {
+    forwardBlock<1>(L, size, L_stride, X + first, columns, begin());
+  }
 }
 
 }  // namespace
@@ -92,15 +101,19 @@ void SmallMatrix::resize(Eigen::Index size) {
 }
 
 bool factorise(SmallMatrix& A) {
-  return factoriseColumns(A.column(0), A.size(), A.stride());
+  return factoriseColumns(A.column(0), nullptr, A.size(), A.stride());
+}
+
+bool factoriseBoth(SmallMatrix& A, SmallMatrix& B) {
+  return factoriseColumns(A.column(0), B.column(0), A.size(), A.stride());
 }
 
 void solveFour(const SmallMatrix& L, FourColumns& X) {
   solveFourColumns(L.column(0), L.size(), L.stride(), X.data());
 }
 
-void solveForward(const SmallMatrix& L, ManyColumns& X) {
-  solveForwardRows(L.column(0), L.size(), L.stride(), X.data(), X.cols());
+void solveForward(const SmallMatrix& L, ManyColumns& X, Eigen::Index identity) {
+  solveForwardRows(L.column(0), L.size(), L.stride(), X.data(), X.cols(), identity);
 }
 
 }  // namespace slamscope::slam

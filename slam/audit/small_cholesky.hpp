@@ -29,15 +29,17 @@ class SmallMatrix {
 /// A ← L with A = L Lᵀ, reading and writing the lower triangle; above it stands no meaning then.
 /// False where A is not positive definite: A is undefined.
 [[nodiscard]] bool factorise(SmallMatrix& A);
+/// The same of two of one size, of which one has its way while the other waits for a root.
+[[nodiscard]] bool factoriseBoth(SmallMatrix& A, SmallMatrix& B);
 
 /// Right-hand sides, each row a column of four numbers.
 using FourColumns = Eigen::Matrix<double, 4, Eigen::Dynamic>;
 /// X ← A⁻¹ X by the factor L of A.
 void solveFour(const SmallMatrix& L, FourColumns& X);
 
-/// X ← L⁻¹ X for X as columns of `X`ᵀ: each row of X holds so many right-hand sides, a multiple of
-/// four.
+/// Right-hand sides of as many rows as L, in a multiple of four columns.
 using ManyColumns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-void solveForward(const SmallMatrix& L, ManyColumns& X);
+/// X ← L⁻¹ X. From column `identity` on X is the identity, and zeros after it.
+void solveForward(const SmallMatrix& L, ManyColumns& X, Eigen::Index identity);
 
 }  // namespace slamscope::slam

@@ -12,9 +12,10 @@ namespace {
   return *reinterpret_cast<const Vector4*>(place);
 }
 
-[[gnu::always_inline]] inline Vector4 larger(const Vector4& a, const Vector4& b) {
-  const Vector4 size = b < 0.0 ? -b : b;
-  return a > size ? a : size;
+/// largest ← the larger of it and |v|, entry by entry.
+[[gnu::always_inline]] inline void raise(Vector4& largest, const Vector4& v) {
+  const Vector4 size = v < 0.0 ? -v : v;
+  largest = largest > size ? largest : size;
 }
 
 [[gnu::always_inline]] inline double largestOf(const Vector4& v) {
@@ -41,8 +42,8 @@ void compareRows(const double* columns, std::ptrdiff_t rows, std::ptrdiff_t coun
       const Vector4 scale = at(from + kComparedImages * rows);
       for (int k = 0; k < kComparedImages; ++k) {
         const Vector4 y = at(from + k * rows);
-        whole[k] = larger(whole[k], scale * y);
-        outside[k] = larger(outside[k], scale * (y - sum[half][k]));
+        raise(whole[k], scale * y);
+        raise(outside[k], scale * (y - sum[half][k]));
       }
     }
   }

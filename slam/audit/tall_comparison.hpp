@@ -7,11 +7,11 @@
 
 namespace slamscope::slam {
 
-inline constexpr int kComparedImages = 3;
+inline constexpr int kComparedImages = 2;
 
-/// How much of three vectors y a combination of a few columns leaves over. `columns`: rows × count,
-/// a multiple of eight rows; `weights`: what to take of each for each y (a fourth is not looked
-/// at); `tall`: the three y and a scale for each row.
+/// How much of two vectors y a combination of a few columns leaves over. `columns`: rows × count, a
+/// multiple of eight rows; `weights`: what to take of each for each y (the first two of four);
+/// `tall`: the two y and a scale for each row.
 ///
 /// Largest (first row) |scale y| and (second row) |scale (y − columns weights)|, a column for each
 /// y. All numbers must be finite.

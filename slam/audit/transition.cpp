@@ -120,6 +120,7 @@ Transition lineUp(const SnapshotPtr& before, const SnapshotPtr& after, const Exa
     t.scale[i] = variance > 1e-200 ? 1.0 / t.sigma[i] : 0.0;
     if (t.scale[i] > 0.0) smallest = std::min(smallest, variance);
   }
+  t.largest_scale = t.scale.maxCoeff();
   t.noise = exactness.covariance;
   if (exactness.covariance_absolute > 0.0) t.noise += exactness.covariance_absolute / smallest;
   double largest = t.before->pose.cwiseAbs().maxCoeff();
@@ -143,18 +144,14 @@ Transition lineUp(const SnapshotPtr& before, const SnapshotPtr& after, const Exa
 Eigen::MatrixXd changeTimes(const Transition& transition, int begin, const Eigen::MatrixXd& W) {
   const int rows = transition.size() - begin;
   const Eigen::VectorXd scale = transition.scale.tail(rows);
-  // By two probes at a time; an odd one is filled up by zeros.
-  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(rows, (W.cols() + 1) / 2 * 2);
-  input.leftCols(W.cols()) = scale.asDiagonal() * W;
-  Eigen::MatrixXd output = Eigen::MatrixXd::Zero(rows, input.cols());
+  const Eigen::MatrixXd input = scale.asDiagonal() * W;
+  Eigen::MatrixXd output = Eigen::MatrixXd::Zero(rows, W.cols());
   const PackedChange D{transition.before->covariance.packed().data(),
                        transition.after->covariance.packed().data(), begin};
-  for (Eigen::Index k = 0; k < input.cols(); k += 2) {
-    addImages(D, 0, rows,
-              {input.col(k).data(), input.col(k + 1).data(), output.col(k).data(),
-               output.col(k + 1).data()});
+  for (Eigen::Index k = 0; k < W.cols(); ++k) {
+    addImage(D, 0, rows, input.col(k).data(), output.col(k).data());
   }
-  return scale.asDiagonal() * output.leftCols(W.cols());
+  return scale.asDiagonal() * output;
 }
 
 void fillProbes(std::uint64_t seed, Eigen::Index rows, Eigen::Index count, Eigen::MatrixXd& W) {

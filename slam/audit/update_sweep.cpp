@@ -9,7 +9,6 @@
 namespace slamscope::slam {
 namespace {
 
-constexpr int kProbes = 2;
 /// So many rows are taken before their entries are gathered: they are still in the cache then.
 constexpr std::ptrdiff_t kRowsTogether = 16;
 
@@ -23,9 +22,9 @@ void UpdateSweep::resize(const Transition& t) {
   }
   const Eigen::Index size = t.size();
   const auto count = static_cast<Eigen::Index>(states_.size());
-  fillProbes(t.after->sequence, size, kProbes, omega_);
-  scaled_omega_.noalias() = t.scale.asDiagonal() * omega_;
-  images_.setZero(padded(size), kProbes);
+  fillProbes(t.after->sequence, size, 1, omega_);
+  scaled_omega_ = t.scale.cwiseProduct(omega_.col(0));
+  image_.setZero(padded(size));
   columns_.resize(padded(size), count);
   columns_.bottomRows(padded(size) - size).setZero();
   block_before_.resize(count, count);
@@ -59,21 +58,15 @@ void UpdateSweep::take(const Transition& t) {
   next_state_ = 0;
   least_variance_ = std::numeric_limits<double>::infinity();
   const PackedChange D{t.before->covariance.packed().data(), t.after->covariance.packed().data()};
-  const TwoImages images{scaled_omega_.col(0).data(), scaled_omega_.col(1).data(),
-                         images_.col(0).data(), images_.col(1).data()};
   const std::ptrdiff_t size = t.size();
   for (std::ptrdiff_t first = 0; first < size; first += kRowsTogether) {
     const std::ptrdiff_t last = std::min(first + kRowsTogether, size);
-    addImages(D, first, last, images);
+    addImage(D, first, last, scaled_omega_.data(), image_.data());
     for (std::ptrdiff_t row = first; row < last; ++row) {
       gather(D.rowBefore(row), D.rowAfter(row), static_cast<int>(row));
     }
   }
-  finite_ = (images_.array() * 0.0).sum() == 0.0;
-}
-
-ProbedChange UpdateSweep::change(const Transition& t) const {
-  return {0, omega_, t.scale.asDiagonal() * images_.topRows(t.size())};
+  finite_ = (image_.array() * 0.0).sum() == 0.0;
 }
 
 }  // namespace slamscope::slam

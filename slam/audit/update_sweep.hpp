@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "slam/audit/span_fit.hpp"
 #include "slam/audit/transition.hpp"
 
 namespace slamscope::slam {
@@ -14,14 +13,12 @@ namespace slamscope::slam {
 class UpdateSweep {
  public:
   void take(const Transition& transition);
-  /// D through the random vectors, scaled from both sides.
-  [[nodiscard]] ProbedChange change(const Transition& transition) const;
 
   /// Robot (0, 1, 2), then two for each observed feature; ascending.
   [[nodiscard]] const std::vector<int>& states() const { return states_; }
-  /// D Σ⁻¹ Ω for two random vectors Ω, Σ² the diagonal of P⁻. N rows and at times zeros below them,
-  /// as in columns().
-  [[nodiscard]] const Eigen::MatrixXd& images() const { return images_; }
+  /// D Σ⁻¹ ω for a random vector ω, Σ² the diagonal of P⁻. N rows and at times zeros below them, as
+  /// in columns().
+  [[nodiscard]] const Eigen::VectorXd& image() const { return image_; }
   /// Columns states() of P⁻.
   [[nodiscard]] const Eigen::MatrixXd& columns() const { return columns_; }
   /// Rows and columns states() of P⁻ and of D.
@@ -45,8 +42,8 @@ class UpdateSweep {
   std::vector<int> states_;
   std::size_t next_state_ = 0;  ///< of states_, while rows go by
   Eigen::MatrixXd omega_;
-  Eigen::MatrixXd scaled_omega_;
-  Eigen::MatrixXd images_;
+  Eigen::VectorXd scaled_omega_;
+  Eigen::VectorXd image_;
   Eigen::MatrixXd columns_;
   Eigen::MatrixXd block_before_;
   Eigen::MatrixXd block_of_change_;
