@@ -46,7 +46,9 @@ void LawfulUpdate::take(const Transition& t, const UpdateSweep& sweep) {
   B_.project(sweep.blockBefore(), T_);
   if (!fits(t, sweep) || !featuresShrink(t, sweep.diagonal(), sweep.besideDiagonal())) return;
   B_.project(sweep.blockOfChange(), M_);
-  recognised_ = shrinksAndStaysPositive(t, sweep) && measures(t);
+  if (!shrinksAndStaysPositive(t, sweep)) return;
+  measure(t);
+  recognised_ = true;
 }
 
 bool LawfulUpdate::fits(const Transition& t, const UpdateSweep& sweep) {
@@ -104,10 +106,38 @@ bool LawfulUpdate::shrinksAndStaysPositive(const Transition& t, const UpdateSwee
     rest_(m, m) += tolerance * size * size;
   }
   factor_ = M_;
-  return factoriseBoth(factor_, rest_);
+  const Factorised both = factoriseBoth(factor_, rest_);
+  regular_ = both.first;
+  return both.second && (regular_ || shrinksWithin(shrinkTolerance(t)));
 }
 
-bool LawfulUpdate::measures(const Transition& t) {
+bool LawfulUpdate::shrinksWithin(double tolerance) {
+  factor_ = M_;
+  for (Eigen::Index m = 0; m < B_.size(); ++m) {
+    factor_(m, m) += tolerance * B_.sigma()[m] * B_.sigma()[m];
+  }
+  return factorise(factor_);
+}
+
+void LawfulUpdate::measure(const Transition& t) {
+  const Eigen::ArrayXd& sigma = B_.sigma();
+  const Eigen::Index size = B_.size();
+  double largest = 0.0;  // trace of M, scaled by σ
+  for (Eigen::Index m = 0; m < size; ++m) largest += M_(m, m) / (sigma[m] * sigma[m]);
+  const double least = leastResolved(t, size + 3, largest);
+  if (regular_ && measureAll(t, least)) return;
+  // What drowns in the noise is left out: late in a run nearly all but the robot's three.
+  for (Eigen::Index m = 0; m < size; ++m) {
+    Eigen::Map<Eigen::ArrayXd>(M_.column(m), size) /= sigma * sigma[m];
+  }
+  relative_change_ = relative_.row(1).transpose().array() / sigma;
+  const Resolved resolved = squaredOverResolved(M_, relative_change_, least);
+  innovation_.nis = resolved.squared;
+  innovation_.dof = resolved.rank;
+  innovation_.features.clear();
+}
+
+bool LawfulUpdate::measureAll(const Transition& t, double least_resolved) {
   const Eigen::Index size = B_.size();
   solved_.setZero(size, (2 * size + 1 + 3) / 4 * 4);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -117,15 +147,12 @@ bool LawfulUpdate::measures(const Transition& t) {
   }
   solveForward(factor_, solved_, size + 1);
   squaresOf(solved_, size, squares_, innovations_);
-  double largest = 0.0;  // trace of M, scaled by σ, and of its inverse
-  double inverse = 0.0;
+  double inverse = 0.0;  // trace of M⁻¹, scaled by 1 / σ
   for (Eigen::Index m = 0; m < size; ++m) {
-    const double variance = B_.sigma()[m] * B_.sigma()[m];
-    largest += M_(m, m) / variance;
-    inverse += variance * squares_[size + 1 + m];
+    inverse += B_.sigma()[m] * B_.sigma()[m] * squares_[size + 1 + m];
   }
   const double least = 1.0 / inverse;
-  if (!(least > leastResolved(t, size + 3, largest))) return false;
+  if (!(least > least_resolved)) return false;
   innovation_.nis = squares_[size];
   innovation_.dof = static_cast<int>(size);
   innovation_.features.resize(t.observed.size());

@@ -50,10 +50,13 @@ class LawfulUpdate {
   bool confirmsSupport(const Transition& t);
   bool confirmsRange(const Transition& t);
   bool shrinksAndStaysPositive(const Transition& t, const UpdateSweep& sweep);
-  bool measures(const Transition& t);
+  bool shrinksWithin(double tolerance);
+  void measure(const Transition& t);
+  bool measureAll(const Transition& t, double least_resolved);
   void measureFeature(const Transition& t, Eigen::Index k, double least);
 
   bool recognised_ = false;
+  bool regular_ = false;  ///< M, in double precision
   Fit support_;
   Fit range_;
   InnovationEstimate innovation_;
@@ -69,6 +72,7 @@ class LawfulUpdate {
   FourColumns coefficients_;  ///< c and c'
   FourColumns weights_;       ///< Bᵀ c and Bᵀ c'
   ManyColumns solved_;          ///< L⁻¹ [T, B Δx, I], M = L Lᵀ
+  Eigen::VectorXd relative_change_;
   Eigen::VectorXd squares_;     ///< of the columns of solved_
   Eigen::VectorXd innovations_; ///< ν̃
 };

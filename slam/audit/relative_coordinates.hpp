@@ -22,7 +22,7 @@ class RelativeCoordinates {
   /// |B(m, 2)| of each row m: how the heading moves it.
   [[nodiscard]] double lever(Eigen::Index m) const { return std::abs(lever_[m]); }
   /// Σ_j |B(m, j)| σ_j for each row m, σ² the diagonal of P⁻.
-  [[nodiscard]] const Eigen::VectorXd& sigma() const { return sigma_; }
+  [[nodiscard]] const Eigen::ArrayXd& sigma() const { return sigma_; }
 
   /// B A Bᵀ for a symmetric A of 3 + r rows.
   void project(const Eigen::MatrixXd& A, SmallMatrix& projected);
@@ -34,7 +34,7 @@ class RelativeCoordinates {
  private:
   std::vector<Eigen::Vector2d> deltas_;
   Eigen::VectorXd lever_;  ///< B's column of the heading: δ_y, −δ_x of each feature
-  Eigen::VectorXd sigma_;
+  Eigen::ArrayXd sigma_;
   Eigen::MatrixXd half_projected_;  ///< A Bᵀ
 };
 

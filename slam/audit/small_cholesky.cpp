@@ -50,12 +50,13 @@ template <int Width>
 }
 
 SLAMSCOPE_FMA_CLONES
-bool factoriseColumns(double* A, double* B, std::ptrdiff_t size, std::ptrdiff_t stride) {
+void factoriseColumns(double* A, double* B, std::ptrdiff_t size, std::ptrdiff_t stride,
+                      Factorised& regular) {
+  regular = {true, B != nullptr};
   for (std::ptrdiff_t j = 0; j < size; ++j) {
-    if (!eliminate(A, size, stride, j)) return false;
-    if (B != nullptr && !eliminate(B, size, stride, j)) return false;
+    regular.first = regular.first && eliminate(A, size, stride, j);
+    regular.second = regular.second && eliminate(B, size, stride, j);
   }
-  return true;
 }
 
 SLAMSCOPE_FMA_CLONES
@@ -101,11 +102,35 @@ void SmallMatrix::resize(Eigen::Index size) {
 }
 
 bool factorise(SmallMatrix& A) {
-  return factoriseColumns(A.column(0), nullptr, A.size(), A.stride());
+  Factorised regular;
+  factoriseColumns(A.column(0), nullptr, A.size(), A.stride(), regular);
+  return regular.first;
 }
 
-bool factoriseBoth(SmallMatrix& A, SmallMatrix& B) {
-  return factoriseColumns(A.column(0), B.column(0), A.size(), A.stride());
+Factorised factoriseBoth(SmallMatrix& A, SmallMatrix& B) {
+  Factorised regular;
+  factoriseColumns(A.column(0), B.column(0), A.size(), A.stride(), regular);
+  return regular;
+}
+
+Resolved squaredOverResolved(SmallMatrix& A, Eigen::VectorXd& v, double least) {
+  Resolved resolved;
+  while (resolved.rank < A.size()) {
+    Eigen::Index pivot = 0;
+    for (Eigen::Index i = 1; i < A.size(); ++i) {
+      if (A(i, i) > A(pivot, pivot)) pivot = i;
+    }
+    if (!(A(pivot, pivot) > least)) break;
+    ++resolved.rank;
+    resolved.squared += v[pivot] * v[pivot] / A(pivot, pivot);
+    const Eigen::VectorXd column =
+        Eigen::Map<const Eigen::VectorXd>(A.column(pivot), A.size()) / A(pivot, pivot);
+    v -= v[pivot] * column;
+    for (Eigen::Index i = 0; i < A.size(); ++i) {
+      Eigen::Map<Eigen::VectorXd>(A.column(i), A.size()) -= A(pivot, i) * column;
+    }
+  }
+  return resolved;
 }
 
 void solveFour(const SmallMatrix& L, FourColumns& X) {

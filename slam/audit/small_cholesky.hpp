@@ -29,8 +29,20 @@ class SmallMatrix {
 /// A ← L with A = L Lᵀ, reading and writing the lower triangle; above it stands no meaning then.
 /// False where A is not positive definite: A is undefined.
 [[nodiscard]] bool factorise(SmallMatrix& A);
-/// The same of two of one size, of which one has its way while the other waits for a root.
-[[nodiscard]] bool factoriseBoth(SmallMatrix& A, SmallMatrix& B);
+/// The same of two of one size, one of which has its way while the other waits for a root.
+struct Factorised {
+  bool first = false;
+  bool second = false;
+};
+[[nodiscard]] Factorised factoriseBoth(SmallMatrix& A, SmallMatrix& B);
+
+/// vᵀ A⁻¹ v over the part of A (both triangles given) that stands out: by elimination of the largest
+/// diagonal entry left over, until none exceeds `least`. A and v are used up.
+struct Resolved {
+  int rank = 0;
+  double squared = 0.0;
+};
+[[nodiscard]] Resolved squaredOverResolved(SmallMatrix& A, Eigen::VectorXd& v, double least);
 
 /// Right-hand sides, each row a column of four numbers.
 using FourColumns = Eigen::Matrix<double, 4, Eigen::Dynamic>;
