@@ -21,18 +21,6 @@ double roundingOf(const Transition& t) {
   return t.noise * std::sqrt(static_cast<double>(t.size()));
 }
 
-/// squares(m) = Σ_i X(i, m)², along(m) = Σ_i X(i, m) X(i, column).
-void squaresOf(const ManyColumns& X, Eigen::Index column, Eigen::VectorXd& squares,
-               Eigen::VectorXd& along) {
-  squares.setZero(X.cols());
-  along.setZero(X.cols());
-  for (Eigen::Index i = 0; i < X.rows(); ++i) {
-    const auto row = X.row(i).transpose().array();
-    squares.array() += row.square();
-    along.array() += X(i, column) * row;
-  }
-}
-
 }  // namespace
 
 void LawfulUpdate::take(const Transition& t, const UpdateSweep& sweep) {

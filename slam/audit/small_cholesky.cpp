@@ -33,18 +33,34 @@ template <int Width>
   }
 }
 
-/// Column j of the factor, and what it takes from those after it.
-[[gnu::always_inline]] inline bool eliminate(double* A, std::ptrdiff_t size, std::ptrdiff_t stride,
-                                             std::ptrdiff_t j) {
-  double* const column = A + j * stride;
+/// Column j of the factor, once nothing is to be taken from it any more. False: no root.
+[[gnu::always_inline]] inline bool finish(double* column, std::ptrdiff_t stride,
+                                          std::ptrdiff_t j) {
   if (!(column[j] > 0.0)) return false;
   const double inverse = 1.0 / std::sqrt(column[j]);
   // From the four that hold the diagonal on: what is above it may become anything.
   for (std::ptrdiff_t i = j / 4 * 4; i < stride; i += 4) at(column + i) *= inverse;
-  for (std::ptrdiff_t k = j + 1; k < size; ++k) {
+  return true;
+}
+
+/// Columns j and j + 1 of the factor, and what they take from those after them.
+[[gnu::always_inline]] inline bool eliminate(double* A, std::ptrdiff_t size, std::ptrdiff_t stride,
+                                             std::ptrdiff_t j) {
+  double* const first = A + j * stride;
+  if (!finish(first, stride, j)) return false;
+  if (j + 1 == size) return true;
+  double* const second = first + stride;
+  const double between = first[j + 1];
+  for (std::ptrdiff_t i = (j + 1) / 4 * 4; i < stride; i += 4) {
+    at(second + i) -= between * at(first + i);
+  }
+  if (!finish(second, stride, j + 1)) return false;
+  for (std::ptrdiff_t k = j + 2; k < size; ++k) {
     double* const other = A + k * stride;
-    const double factor = column[k];
-    for (std::ptrdiff_t i = k / 4 * 4; i < stride; i += 4) at(other + i) -= factor * at(column + i);
+    const double of_first = first[k], of_second = second[k];
+    for (std::ptrdiff_t i = k / 4 * 4; i < stride; i += 4) {
+      at(other + i) -= of_first * at(first + i) + of_second * at(second + i);
+    }
   }
   return true;
 }
@@ -53,7 +69,7 @@ SLAMSCOPE_FMA_CLONES
 void factoriseColumns(double* A, double* B, std::ptrdiff_t size, std::ptrdiff_t stride,
                       Factorised& regular) {
   regular = {true, B != nullptr};
-  for (std::ptrdiff_t j = 0; j < size; ++j) {
+  for (std::ptrdiff_t j = 0; j < size; j += 2) {
     regular.first = regular.first && eliminate(A, size, stride, j);
     regular.second = regular.second && eliminate(B, size, stride, j);
   }
@@ -93,6 +109,19 @@ void solveForwardRows(const double* L, std::ptrdiff_t size, std::ptrdiff_t L_str
   }
 }
 
+SLAMSCOPE_FMA_CLONES
+void addSquares(const double* X, std::ptrdiff_t rows, std::ptrdiff_t columns, std::ptrdiff_t column,
+                double* squares, double* along) {
+  for (std::ptrdiff_t i = 0; i < rows; ++i) {
+    const double* const row = X + i * columns;
+    for (std::ptrdiff_t m = 0; m < columns; m += 4) {
+      const Vector4 x = at(row + m);
+      at(squares + m) += x * x;
+      at(along + m) += row[column] * x;
+    }
+  }
+}
+
 }  // namespace
 
 void SmallMatrix::resize(Eigen::Index size) {
@@ -111,6 +140,13 @@ Factorised factoriseBoth(SmallMatrix& A, SmallMatrix& B) {
   Factorised regular;
   factoriseColumns(A.column(0), B.column(0), A.size(), A.stride(), regular);
   return regular;
+}
+
+void squaresOf(const ManyColumns& X, Eigen::Index column, Eigen::VectorXd& squares,
+               Eigen::VectorXd& along) {
+  squares.setZero(X.cols());
+  along.setZero(X.cols());
+  addSquares(X.data(), X.rows(), X.cols(), column, squares.data(), along.data());
 }
 
 Resolved squaredOverResolved(SmallMatrix& A, Eigen::VectorXd& v, double least) {

@@ -53,5 +53,8 @@ void solveFour(const SmallMatrix& L, FourColumns& X);
 using ManyColumns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 /// X ← L⁻¹ X. From column `identity` on X is the identity, and zeros after it.
 void solveForward(const SmallMatrix& L, ManyColumns& X, Eigen::Index identity);
+/// squares(m) = Σ_i X(i, m)², along(m) = Σ_i X(i, m) X(i, column).
+void squaresOf(const ManyColumns& X, Eigen::Index column, Eigen::VectorXd& squares,
+               Eigen::VectorXd& along);
 
 }  // namespace slamscope::slam
