@@ -96,6 +96,7 @@ void Audit::State::hint(const std::optional<std::string_view>& allow) {
 
 void Audit::State::note(Law law, const Outcome& outcome, const Snapshot& snapshot) {
   tallies[static_cast<std::size_t>(law)].take(outcome, snapshot.sequence, seconds(snapshot.time));
+  checked = checked || outcome.checked();
   if (!outcome.violated()) return;
   newest.broken.push_back(law);
   for (const Blame& b : outcome.blame) {
@@ -115,6 +116,7 @@ void Audit::State::note(Law law, const Outcome& outcome, const Snapshot& snapsho
 void Audit::State::noteInnovation(const InnovationEstimate& estimate, const Snapshot& snapshot) {
   const bool stood_out = nis.firstBroken().has_value();
   nis.take(estimate, {snapshot.sequence, seconds(snapshot.time)});
+  checked = checked || estimate.dof > 0;
   newest.nis = estimate.nis;
   newest.dof = estimate.dof;
   if (nis.firstBroken() && !stood_out) newest.broken.push_back(Law::nis);
@@ -160,7 +162,7 @@ std::optional<Transition> Audit::State::lookAt(const SnapshotPtr& snapshot) {
   if (!last || !last_finite || s.event == Event::initial || s.event == Event::remove) return {};
   Transition t = lineUp(last, snapshot, exactness());
   swept = s.event == Event::update && t.shared == s.featureCount() && s.extra.empty() &&
-          !diagonal_only && options.means_known && !t.rounded;
+          comparable() && !t.rounded;
   if (swept) {
     sweep.take(t);
     lawful.take(t, sweep);

@@ -47,6 +47,7 @@ struct Audit::State {
   bool last_finite = true;
   std::uint64_t records = 0;
   std::uint64_t updates = 0;
+  std::uint64_t corrections_checked = 0;
   double first_time_s = 0.0;
   double last_time_s = 0.0;
   bool every_event = false;  ///< L2: some record is a prediction, an update or an initialisation
@@ -68,6 +69,7 @@ struct Audit::State {
   RecordFindings newest;
 
   // Of the record that is judged now:
+  bool checked = false;  ///< some law could be
   bool swept = false;   ///< it is an update of the whole state, and `sweep` has gone over it
   UpdateSweep sweep;
   LawfulUpdate lawful;
@@ -90,6 +92,8 @@ struct Audit::State {
   void judgeStep(const Transition& t);
   void judgeShrink(const Transition& t, bool map_only, bool everything);
 
+  /// Whether mean and covariance are in the log, both and whole.
+  [[nodiscard]] bool comparable() const { return !diagonal_only && options.means_known; }
   [[nodiscard]] bool repeatsLast(const Snapshot& snapshot) const;
   [[nodiscard]] bool allows(Allow allow) const { return options.allow.contains(allow); }
   [[nodiscard]] Exactness exactness() const;

@@ -31,19 +31,25 @@ bool initialisedAgain(const Transition& t, const Outcome& outcome) {
 
 void Audit::State::judgeTransition(const Transition& t) {
   const Snapshot& s = *t.after;
+  checked = false;
   const bool same_map = t.shared == s.featureCount();
-  if (diagonal_only || !options.means_known) {
+  if (s.event == Event::predict && same_map && comparable()) {
+    judgePrediction(t);
+    return;
+  }
+  if (s.event == Event::initialise && comparable()) {
+    judgeInitialisation(t);
+    return;
+  }
+  if (!comparable()) {
     const bool moves = s.event == Event::predict || s.event == Event::initialise;
     if (!moves) judgeShrink(t, true, true);
-  } else if (s.event == Event::predict && same_map) {
-    judgePrediction(t);
   } else if (s.event == Event::update && same_map) {
     judgeUpdate(t);
-  } else if (s.event == Event::initialise) {
-    judgeInitialisation(t);
   } else {
     judgeStep(t);
   }
+  if (checked) ++corrections_checked;
 }
 
 void Audit::State::judgePrediction(const Transition& t) {

@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace slamscope::slam {
 namespace {
@@ -15,7 +14,6 @@ struct PseudoInverse {
   double least = 0.0;    ///< least eigenvalue kept, or a bound below it
 };
 
-/// By eigenvalues: whatever D is.
 PseudoInverse pseudoInverse(const Transition& t, const Eigen::MatrixXd& D) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(D);
   const Eigen::VectorXd& values = eigen.eigenvalues();
@@ -30,35 +28,10 @@ PseudoInverse pseudoInverse(const Transition& t, const Eigen::MatrixXd& D) {
   return inverse;
 }
 
-/// A D known to lie in the span of the columns of U, for a fraction of the cost: with U = Q R,
-/// D⁺ = Q (Qᵀ D Q)⁻¹ Qᵀ. Nothing where U or D is near a smaller rank.
-std::optional<PseudoInverse> pseudoInverseWithin(const Transition& t, const SpanBasis& U,
-                                                 const Eigen::MatrixXd& D) {
-  const OrthonormalSpan span = orthonormal(U);
-  if (!span.all_resolved || span.Q.cols() != U.W.cols()) return std::nullopt;
-  const Eigen::MatrixXd inner = span.Q.transpose() * D * span.Q;
-  const Eigen::LLT<Eigen::MatrixXd> factor(inner);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  PseudoInverse inverse;
-  inverse.half = span.Q;
-  factor.matrixU().solveInPlace<Eigen::OnTheRight>(inverse.half);
-  inverse.least = 1.0 / inverse.half.squaredNorm();  // 1 / Σ 1/λ
-  if (!(inverse.least > leastResolved(t, D.rows(), inner.trace()))) return std::nullopt;
-  return inverse;
-}
-
 Eigen::VectorXd pick(const Eigen::VectorXd& v, const std::vector<int>& states) {
   Eigen::VectorXd picked(static_cast<Eigen::Index>(states.size()));
   for (std::size_t k = 0; k < states.size(); ++k) {
     picked[static_cast<Eigen::Index>(k)] = v[states[k]];
-  }
-  return picked;
-}
-
-Eigen::MatrixXd rowsOf(const Eigen::MatrixXd& M, const std::vector<int>& rows) {
-  Eigen::MatrixXd picked(static_cast<Eigen::Index>(rows.size()), M.cols());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    picked.row(static_cast<Eigen::Index>(k)) = M.row(rows[k]);
   }
   return picked;
 }
@@ -120,15 +93,7 @@ InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& 
   const std::vector<int> states = statesOf(blocks);
   if (states.empty()) return estimate;
   const Eigen::MatrixXd D = t.scaledBlock(states);
-  std::optional<PseudoInverse> within;
-  if (anatomy.fit.whole && anatomy.outside.empty()) {
-    SpanBasis own;
-    own.W = rowsOf(anatomy.basis.W, states);
-    own.noise = anatomy.basis.noise;
-    within = pseudoInverseWithin(t, own, D);
-  }
-  const PseudoInverse inverse =
-      within ? std::move(*within) : pseudoInverse(t, D);
+  const PseudoInverse inverse = pseudoInverse(t, D);
   const Eigen::VectorXd dx = pick(t.scale.cwiseProduct(t.meanChange()), states);
   const Eigen::VectorXd w = inverse.half.transpose() * dx;
   const Eigen::Index lawful =
