@@ -7,6 +7,7 @@
 #include "common/coverage.glsl"
 #include "common/view.glsl"
 #include "common/shade.glsl"
+#include "common/named.glsl"
 #include "interop/pairs.h"
 
 layout(set = 1, binding = 0, scalar) uniform Pairs { PairsData pairs; };
@@ -40,6 +41,14 @@ void main() {
   const ConicPoint here = evaluate(conic, gl_FragCoord.xy - reference);
   const float coverage = edge ? conicCoverage(conic, here) : 1.0;
   if (!anything || coverage <= 0.0 && !behind) discard;
+  if (kKind > 0u) {
+    const bool its_own = !behind || coverage >= 0.5;
+    const vec4 name = colourOrName(pairs.colour, its_own ? number : entry.x);
+    if (!covers(its_own ? coverage : 1.0, name)) discard;
+    gl_FragDepth = frame.near / uintBitsToFloat(its_own && edge ? entry.w : entry.y);
+    result = name;
+    return;
+  }
 
   const float seen_depth = uintBitsToFloat(edge ? entry.w : entry.y);
   gl_FragDepth = frame.near / (coverage > 0.0 ? seen_depth : uintBitsToFloat(entry.y));

@@ -150,6 +150,7 @@ TEST_F(StereoPicture, LensShowsEachColourWhereItsEquationPutsIt) {
         const double factor = 1 + s * (lens.k[0] + s * (lens.k[1] + s * lens.k[2]));
         for (int c = 0; c < 3; ++c) {
           const Eigen::Vector2d from = axis + lens.scale[c] * factor * off;
+          if (c == 1) EXPECT_LT((from - drawnPixel(lens, {320, 240}, {u, v})).norm(), 1e-9);
           const int found = channel(worn[eye], u, v, c);
           worst = std::max(worst, std::abs(found - between(bare[eye], from, c)));
           const Eigen::Vector2d half_off = from.array() + 0.5;
