@@ -96,11 +96,13 @@ class SceneBuilder {
     const Eigen::Vector3d from = featureOnFloor(pair.i);
     const Eigen::Vector3d to = featureOnFloor(pair.j);
     const bool flagged = alarms_.pair(id(pair.i), id(pair.j)) != nullptr;
-    addLine(from, to,
-            flagged            ? colours_.flagged_pair
-            : isDoubtful(pair) ? colours_.tentative_pair
-                               : colours_.pair,
-            tagOf(What::pair, pair));
+    if (!flagged || !manyFlagged()) {
+      addLine(from, to,
+              flagged            ? colours_.flagged_pair
+              : isDoubtful(pair) ? colours_.tentative_pair
+                                 : colours_.pair,
+              tagOf(What::pair, pair));
+    }
     addEllipsoid(pair, relativeEllipsoid(pair.P_d, 0.5 * (from + to), style_));
   }
 
@@ -109,7 +111,7 @@ class SceneBuilder {
   void addPairsOnDevice() {
     if (!belief_.points) return;
     engine::PairGlyphs glyphs = glyphsOf(choice(), colours_.ellipsoid);
-    addHaloedPairs(glyphs.choice);
+    addEachFlaggedPair(glyphs.choice);
     if (style_.thinning.none() && belief_.points->pairCount() <= kMostPairLines) {
       addPairLines();
       addDoubtfulPairs(glyphs.choice);
@@ -117,21 +119,12 @@ class SceneBuilder {
     scene_.pairs = std::make_shared<engine::PairGlyphs>(std::move(glyphs));
   }
 
-  /// The flagged pairs alone. Very many without lines and halos: the pairs of the flagged features,
-  /// by the device.
+  /// The flagged pairs alone; very many, which go without lines and halos, by the device.
   void addFlaggedPairs() {
-    if (alarms_.pairs().size() <= kMostPairLines) {
-      engine::PairChoice none;
-      addHaloedPairs(none);
-      return;
-    }
-    if (!belief_.points) return;
     engine::PairChoice choice;
-    for (int k = 0; k < snapshot_.featureCount(); ++k) {
-      if (alarms_.feature(id(k)) != nullptr) {
-        choice.touching.push_back(static_cast<std::uint32_t>(k));
-      }
-    }
+    if (!manyFlagged()) return addEachFlaggedPair(choice);
+    if (!belief_.points) return;
+    choice.touching = indicesOf(alarms_.blamed());
     scene_.pairs = std::make_shared<engine::PairGlyphs>(glyphsOf(choice, colours_.flagged));
   }
 
@@ -164,8 +157,23 @@ class SceneBuilder {
             .colour = colour};
   }
 
-  /// The flagged pairs that the mode shows, each in its halo; `others` are without them.
-  void addHaloedPairs(engine::PairChoice& others) {
+  /// For PairChoice::touching: one that no point has where none of them is in the map, as no
+  /// condition would mean all pairs.
+  [[nodiscard]] std::vector<std::uint32_t> indicesOf(std::span<const slam::FeatureId> ids) const {
+    std::vector<std::uint32_t> indices;
+    for (const slam::FeatureId wanted : ids) {
+      if (const auto k = snapshot_.indexOf(wanted)) {
+        indices.push_back(static_cast<std::uint32_t>(*k));
+      }
+    }
+    if (indices.empty()) indices.push_back(~0U);
+    return indices;
+  }
+
+  [[nodiscard]] bool manyFlagged() const { return alarms_.pairs().size() > kMostPairLines; }
+
+  /// The flagged pairs that the mode shows; `others` are without them.
+  void addEachFlaggedPair(engine::PairChoice& others) {
     if (snapshot_.diagonal_only) return;
     for (const AlarmMarks::Pair& pair : alarms_.pairs()) {
       const auto i = snapshot_.indexOf(pair.first);
@@ -205,13 +213,7 @@ class SceneBuilder {
       }
     }
     if (style_.mode == slam::PairMode::selected) {
-      for (const slam::FeatureId wanted : style_.selected) {
-        if (const auto k = snapshot_.indexOf(wanted)) {
-          choice.touching.push_back(static_cast<std::uint32_t>(*k));
-        }
-      }
-      // None of them is there yet: no condition would mean all pairs.
-      if (choice.touching.empty()) choice.touching.push_back(~0U);
+      choice.touching = indicesOf(style_.selected);
     }
     return choice;
   }
@@ -265,13 +267,14 @@ class SceneBuilder {
     scene_.lines.push_back({.points = {from, to}, .width_px = 1.1, .colour = hue, .tag = tag});
   }
 
-  /// The pair's ellipsoid; in the flags' colour and in its halo where the pair is flagged.
+  /// The pair's ellipsoid; in the flags' colour and, unless they are many, in its halo where the
+  /// pair is flagged.
   void addEllipsoid(const slam::FeaturePair& pair, engine::Ellipsoid ellipsoid) {
     ellipsoid.tag = tagOf(What::pair, pair);
     if (isDoubtful(pair)) ellipsoid.colour = colours_.tentative_ellipsoid;
     if (const AlarmMarks::Mark* mark = alarms_.pair(id(pair.i), id(pair.j))) {
       ellipsoid.colour = colours_.flagged_ellipsoid;
-      if (mark->last_good) {
+      if (mark->last_good && !manyFlagged()) {
         engine::Ellipsoid halo = relativeEllipsoid(*mark->last_good, ellipsoid.centre, style_);
         halo.colour = colours_.halo;
         halo.tag = tagOf(What::halo, pair);
