@@ -35,6 +35,6 @@ void main() {
   if (!covers(coverage, colour) || surface.depth < frame.near) discard;
   gl_FragDepth = frame.near / surface.depth;
   const vec3 rgb = shade(colour.rgb, normalize(surface.normal), rayThrough(gl_FragCoord.xy),
-                         edgeDistance(at));
+                         edgeDistance(at), thickness(conic));
   result = covering(coverage, vec4(rgb, colour.a));
 }

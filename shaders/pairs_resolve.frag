@@ -59,7 +59,8 @@ void main() {
   const float u_z = sqrt(max(1.0 - dot(q_u.yz, q_u.yz), 0.0));
   const vec3 u = vec3(q_u.yz, q_u.w < 0.0 ? -u_z : u_z);
   const vec3 normal = way - (1.0 - abs(q_u.w)) * dot(u, way) * u;
-  const vec3 rgb = shade(pairs.colour.rgb, normalize(normal), ray, edgeDistance(here));
+  const vec3 rgb = shade(pairs.colour.rgb, normalize(normal), ray, edgeDistance(here),
+                         thickness(conic));
   const vec3 plain = kLit ? kPlain * pairs.colour.rgb : pairs.colour.rgb;
   result = behind ? vec4(mix(plain, rgb, coverage), pairs.colour.a)
                   : vec4(rgb, pairs.colour.a * coverage);

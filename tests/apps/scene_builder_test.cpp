@@ -180,6 +180,7 @@ TEST(SceneBuilder, VeryManyFlaggedPairsAreThoseOfTheFlaggedFeaturesByTheDevice) 
     }
   }
   ASSERT_GT(judgement.alarms.pairs.size(), kMostPairLines);
+  shown.clusters = slam::clusterAt(shown.snapshot.features, 1.0);
   const engine::Scene scene =
       sceneOf(shown, {.mode = slam::PairMode::alarms}, AlarmMarks(judgement));
   ASSERT_TRUE(scene.pairs);

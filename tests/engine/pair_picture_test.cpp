@@ -201,6 +201,22 @@ TEST_P(PairPicture, TranslucentOnesFadeAsOneLayer) {
   EXPECT_NEAR(momentsOf(faded).area, 0.5 * momentsOf(opaque).area, 0.02 * momentsOf(opaque).area);
 }
 
+TEST_P(PairPicture, RimsKeepLargeOnesApartAndLeaveSmallOnesTheirColour) {
+  const View view = overFloor();
+  const double px = 2.1 / 300.0;  // m, at the middle of the picture
+  /// Light of a glyph in all, as a share of what it has where nothing is shaded.
+  const auto brightness = [&](double radius_px) {
+    const PairGlyphs glyphs =
+        pairWith(covarianceOf(radius_px * px, radius_px * px, 0.0), {0.05, 0.0});
+    return momentsOf(draw(view, sceneOf(glyphs), options(true))).area /
+           momentsOf(draw(view, sceneOf(glyphs), options(false))).area;
+  };
+  const double small = brightness(1.0);
+  EXPECT_GT(small, 0.65);
+  // Twin: of one that has a rim that share of it is darker.
+  EXPECT_LT(brightness(5.0), small - 0.1);
+}
+
 TEST_P(PairPicture, StandAmongWhatElseIsInTheSceneByDepth) {
   const View view = overFloor();
   PairGlyphs glyphs = pairWith(covarianceOf(0.2, 0.15, 0.0), {0.0, 0.0});

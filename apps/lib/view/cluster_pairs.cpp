@@ -27,11 +27,12 @@ std::span<const slam::ClusterPair> ClusterPairs::of(const slam::SnapshotPtr& sna
   pairs_.clear();
   problem_ = points ? extremes_.problemWith(*points) : std::string();
   const std::size_t count = clusters.members.size();
+  if (count == 1) problem_ = "one cluster has no pairs of clusters; --cluster-cut makes more";
   if (count * (count - 1) / 2 > kMost) {
     problem_ = std::to_string(count) + " clusters are too many to show their pairs; a larger " +
                "--cluster-cut makes fewer";
   }
-  if (!points || count < 2 || !problem_.empty()) return pairs_;
+  if (!points || count == 0 || !problem_.empty()) return pairs_;
   const std::vector<std::uint32_t> groups(clusters.label.begin(), clusters.label.end());
   const std::vector<Eigen::Vector2d> centroids = slam::centroids(*snapshot, clusters);
   for (const engine::GroupPair& found : extremes_.find(points, groups)) {

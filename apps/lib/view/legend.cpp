@@ -95,7 +95,8 @@ std::vector<Row> rowsOf(const Legend& legend) {
   }
   if (legend.clusters > 0) {
     rows.push_back({{},
-                    format("%d clusters, cut at ", legend.clusters) +
+                    (legend.clusters == 1 ? "one cluster, cut at "
+                                          : format("%d clusters, cut at ", legend.clusters)) +
                         lengthText(legend.cluster_cut) +
                         (legend.automatic_cut ? " (automatic)" : "")});
     rows.back().swatch.a = 0.0F;

@@ -45,8 +45,8 @@ struct SceneStyle {
 /// known.
 [[nodiscard]] engine::PlanarPointsPtr pointsOf(const slam::Snapshot& snapshot);
 
-/// Where a map has more pairs, their lines are left out: they would hide everything else. Where more
-/// of them are flagged, their halos too.
+/// Where a map has more pairs, their lines are left out: they would hide everything else. Where
+/// more of them are flagged, their halos too.
 inline constexpr std::size_t kMostPairLines = 1000;
 
 /// What is to be shown of a moment.
