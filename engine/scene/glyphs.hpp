@@ -21,6 +21,7 @@ struct Ellipsoid {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< m
   Rgba colour;
+  std::uint64_t tag = 0;  ///< whatever it stands for: what Picked gives back
 };
 
 /// Upright cone standing on its tip: apex at `tip`, opening towards +z.
@@ -29,6 +30,7 @@ struct Cone {
   double height = 0.1;                            ///< m
   double radius = 0.03;                           ///< m, of the rim at tip + height·z
   Rgba colour;
+  std::uint64_t tag = 0;  ///< as Ellipsoid
 };
 
 /// Flat arrow parallel to the floor, from `origin` along `heading`.
@@ -38,6 +40,7 @@ struct Arrow {
   double length = 0.25;                              ///< m
   double width = 0.08;                               ///< m, of the head
   Rgba colour;
+  std::uint64_t tag = 0;  ///< as Ellipsoid
 };
 
 /// Connected segments of constant width on screen.
@@ -45,6 +48,7 @@ struct Polyline {
   std::vector<Eigen::Vector3d> points;  ///< m
   double width_px = 2.0;
   Rgba colour;
+  std::uint64_t tag = 0;  ///< as Ellipsoid
 };
 
 /// Text at a point of the scene; drawn upright at constant size, not depth-tested.

@@ -4,6 +4,8 @@
 
 #include "apps/lib/view/hmd_state.hpp"
 #include "apps/lib/view/overlay.hpp"
+#include "apps/lib/view/picked_glyph.hpp"
+#include "engine/scene/lens.hpp"
 
 namespace slamscope::apps {
 
@@ -15,8 +17,9 @@ void Hmd::State::draw() {
   report.addStage("scene", watch.lap());
   offscreen.draw(views, scene, render, pixels);
   layer.drawn(offscreen.lastStats().pairs);
-  const bool swapped = options.swap_eyes;
-  layOut(options.layout, pixels[swapped ? 1 : 0], pixels[swapped ? 0 : 1], picture);
+  report.addDeviceMemory(offscreen.lastStats().device_bytes);
+  const bool swapped = request.swap_eyes;
+  layOut(request.layout, pixels[swapped ? 1 : 0], pixels[swapped ? 0 : 1], picture);
   report.addStage("draw", watch.lap());
   if (drawn_frame == frame_count) return;
   drawn_frame = frame_count;
@@ -26,7 +29,7 @@ void Hmd::State::draw() {
 
 void Hmd::State::hand() {
   if (output) output->write(picture);
-  if (options.view.report.empty()) return;
+  if (options.report.empty()) return;
   const HmdFrame frame = frameReport();
   std::vector<double> errors = frame.eyes[0].overlay_errors_px;
   errors.insert(errors.end(), frame.eyes[1].overlay_errors_px.begin(),
@@ -56,16 +59,30 @@ HmdFrame Hmd::State::frameReport() const {
   return frame;
 }
 
+void Hmd::State::explain(const Eigen::Vector2d& pixel) {
+  if (!layer.newest() || scene.cones.empty()) return;
+  const engine::Pinhole& camera = views[0].camera;
+  const EyePixel seen = eyePixel(request.layout, {camera.width, camera.height}, pixel);
+  const int eye = request.swap_eyes ? 1 - seen.eye : seen.eye;
+  const Eigen::Vector2d drawn = engine::drawnPixel(lenses[static_cast<std::size_t>(eye)],
+                                                   {camera.width, camera.height}, seen.pixel);
+  choices.message = whatIsAt(drawn, static_cast<std::uint32_t>(eye),
+                             {.offscreen = offscreen,
+                              .scene = scene,
+                              .snapshot = *layer.newest(),
+                              .alarms = layer.alarms()});
+}
+
 void Hmd::State::finish(Viewer::Ending ending) {
-  if (!options.view.report.empty()) report.write(options.view.report);
+  if (!options.report.empty()) report.write(options.report);
   const bool in_vain = ending == Viewer::Ending::input_ended && !setup.source->live();
   if (in_vain && !ever_shown && (setup.lab == nullptr || frame_count > 0)) {
-    throw std::runtime_error(options.view.camera + ": the map was never found in " +
+    throw std::runtime_error(options.camera + ": the map was never found in " +
                              std::to_string(frame_count) + " frames (" +
                              head.statusLines().front() + ")");
   }
   if (output) output->finish();
-  if (!options.view.picture.empty()) writePicture(options.view.picture, picture);
+  if (!options.picture.empty()) writePicture(options.picture, picture);
 }
 
 void Hmd::presented() {
@@ -76,7 +93,7 @@ void Hmd::presented() {
   const double software = softwareLatencyMs(state.stations);
   state.report.addStage("dequeue_to_present", software);
   state.latency_ms = wholeLatencyMs(state.stations);
-  if (!state.latency_ms && state.options.view.window) state.latency_ms = software;
+  if (!state.latency_ms && state.options.window) state.latency_ms = software;
   if (state.latency) state.latency->add(state.stations);
 }
 

@@ -24,7 +24,8 @@ class KeyCommands {
   void say(std::string message) { choices_.message = std::move(message); }
 
   static constexpr const char* kHelp =
-      "m mode   a axis   + - gain   e rings   l labels   g legend   f fade   space pause   . step  "
+      "m mode   a axis   + - gain   e rings   l labels   g legend   c colours   f fade   space "
+      "pause   . step  "
       " "
       "s screenshot   h keys   q quit";
 
