@@ -70,7 +70,7 @@ struct Audit::State {
 
   // Of the record that is judged now:
   bool checked = false;  ///< some law could be
-  bool swept = false;   ///< it is an update of the whole state, and `sweep` has gone over it
+  bool swept = false;    ///< it is an update of the whole state, and `sweep` has gone over it
   UpdateSweep sweep;
   LawfulUpdate lawful;
 

@@ -36,8 +36,8 @@ struct InnovationEstimate {
 [[nodiscard]] InnovationEstimate estimateInnovation(const Transition& transition,
                                                     const UpdateAnatomy& anatomy);
 
-/// What an eigenvalue of D, of `rows` scaled states and with a largest one of `largest`, must exceed
-/// to be more than rounding.
+/// What an eigenvalue of D, of `rows` scaled states and with a largest one of `largest`, must
+/// exceed to be more than rounding.
 [[nodiscard]] double leastResolved(const Transition& transition, Eigen::Index rows, double largest);
 
 /// Relative error of A⁻¹ R A⁻ᵀ = S̃ − B P⁻ Bᵀ, where D has a least eigenvalue of `least`.

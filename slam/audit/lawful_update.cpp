@@ -26,8 +26,7 @@ double roundingOf(const Transition& t) {
 void LawfulUpdate::take(const Transition& t, const UpdateSweep& sweep) {
   recognised_ = false;
   const auto rank = 2 * static_cast<int>(t.observed.size());
-  const bool applies = t.observed_given && rank > 0 && rank < t.size() &&
-                       !t.rounded &&
+  const bool applies = t.observed_given && rank > 0 && rank < t.size() && !t.rounded &&
                        sweep.finite() && sweep.leastVariance() >= 0.0;
   if (!applies) return;
   B_.take(t);

@@ -63,18 +63,18 @@ class LawfulUpdate {
 
   RelativeCoordinates B_;
   SmallMatrix T_, M_;
-  SmallMatrix rest_;    ///< T − M
-  SmallMatrix factor_;  ///< of T, then of M
+  SmallMatrix rest_;          ///< T − M
+  SmallMatrix factor_;        ///< of T, then of M
   Eigen::MatrixXd tall_;      ///< columns D ω, Δx, 1 / √diag P⁻
   Eigen::Array2Xd largest_;   ///< entry of D ω and Δx, scaled: all of it, outside of the span
   FourColumns picked_;        ///< D ω and Δx at the states of robot and observed features
   FourColumns relative_;      ///< B times these
   FourColumns coefficients_;  ///< c and c'
   FourColumns weights_;       ///< Bᵀ c and Bᵀ c'
-  ManyColumns solved_;          ///< L⁻¹ [T, B Δx, I], M = L Lᵀ
+  ManyColumns solved_;        ///< L⁻¹ [T, B Δx, I], M = L Lᵀ
   Eigen::VectorXd relative_change_;
-  Eigen::VectorXd squares_;     ///< of the columns of solved_
-  Eigen::VectorXd innovations_; ///< ν̃
+  Eigen::VectorXd squares_;      ///< of the columns of solved_
+  Eigen::VectorXd innovations_;  ///< ν̃
 };
 
 }  // namespace slamscope::slam

@@ -6,8 +6,8 @@
 namespace slamscope::slam {
 namespace {
 
-/// So many rows share what is fetched and stored of w and its image: with four of them the sums stay
-/// in registers.
+/// So many rows share what is fetched and stored of w and its image: with four of them the sums
+/// stay in registers.
 constexpr int kRows = 4;
 
 [[gnu::always_inline]] inline double sumOf(const Vector4& v) {

@@ -34,8 +34,7 @@ template <int Width>
 }
 
 /// Column j of the factor, once nothing is to be taken from it any more. False: no root.
-[[gnu::always_inline]] inline bool finish(double* column, std::ptrdiff_t stride,
-                                          std::ptrdiff_t j) {
+[[gnu::always_inline]] inline bool finish(double* column, std::ptrdiff_t stride, std::ptrdiff_t j) {
   if (!(column[j] > 0.0)) return false;
   const double inverse = 1.0 / std::sqrt(column[j]);
   // From the four that hold the diagonal on: what is above it may become anything.

@@ -36,8 +36,8 @@ struct Factorised {
 };
 [[nodiscard]] Factorised factoriseBoth(SmallMatrix& A, SmallMatrix& B);
 
-/// vᵀ A⁻¹ v over the part of A (both triangles given) that stands out: by elimination of the largest
-/// diagonal entry left over, until none exceeds `least`. A and v are used up.
+/// vᵀ A⁻¹ v over the part of A (both triangles given) that stands out: by elimination of the
+/// largest diagonal entry left over, until none exceeds `least`. A and v are used up.
 struct Resolved {
   int rank = 0;
   double squared = 0.0;

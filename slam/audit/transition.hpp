@@ -25,9 +25,9 @@ struct Exactness {
 struct Transition {
   SnapshotPtr before;
   SnapshotPtr after;
-  int shared = 0;           ///< features in both: the first `shared` of each
-  Eigen::VectorXd sigma;    ///< √diag P⁻ of robot and shared features, N
-  Eigen::VectorXd scale;    ///< 1 / sigma; 0 for a state that is known exactly
+  int shared = 0;         ///< features in both: the first `shared` of each
+  Eigen::VectorXd sigma;  ///< √diag P⁻ of robot and shared features, N
+  Eigen::VectorXd scale;  ///< 1 / sigma; 0 for a state that is known exactly
   double largest_scale = 0.0;
   double noise = 1e-11;     ///< error of an entry of P⁻ or P⁺, scaled by √diag
   double mean_noise = 0.0;  ///< error of a mean (m or rad)

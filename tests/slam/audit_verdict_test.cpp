@@ -58,8 +58,7 @@ TEST(AuditVerdict, TwoRecordsWithAnUpdateBetweenThemAreTooLittle) {
 
 TEST(AuditVerdict, TakesTenCheckedCorrectionsAtEveryLevel) {
   for (const bool every_event : {true, false}) {
-    const std::vector<SnapshotPtr> records =
-        recordsOf(oneLoop(1), {.every_event = every_event});
+    const std::vector<SnapshotPtr> records = recordsOf(oneLoop(1), {.every_event = every_event});
     EXPECT_EQ(exitStatus(reportAfter(records, kFewestCorrections - 1)), 3) << every_event;
     EXPECT_EQ(exitStatus(reportAfter(records, kFewestCorrections)), 0) << every_event;
     const AuditOptions covariances{.allow = {}, .means_known = false};
