@@ -14,14 +14,6 @@ constexpr int kRows = 4;
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
-[[gnu::always_inline]] inline const Vector4& at(const double* place) {
-  return *reinterpret_cast<const Vector4*>(place);
-}
-
-[[gnu::always_inline]] inline Vector4& at(double* place) {
-  return *reinterpret_cast<Vector4*>(place);
-}
-
 /// Rows i … i + Rows − 1 with all of their columns.
 template <int Rows>
 [[gnu::always_inline]] inline void addRows(const PackedChange& D, std::ptrdiff_t i, const double* w,
@@ -37,14 +29,14 @@ template <int Rows>
   }
   std::ptrdiff_t j = 0;
   for (; j + 4 <= i; j += 4) {
-    const Vector4 w_j = at(w + j);
-    Vector4 image_j = at(image + j);
+    const Vector4 w_j = vector4At(w + j);
+    Vector4 image_j = vector4At(image + j);
     for (int k = 0; k < Rows; ++k) {
-      const Vector4 d = at(a[k] + j) - at(b[k] + j);
+      const Vector4 d = vector4At(a[k] + j) - vector4At(b[k] + j);
       sums[k] += d * w_j;
       image_j += own[k] * d;
     }
-    at(image + j) = image_j;
+    vector4At(image + j) = image_j;
   }
   for (int k = 0; k < Rows; ++k) sum[k] = sumOf(sums[k]);
   for (; j < i + Rows; ++j) {  // the last columns, those of the rows themselves among them

@@ -8,14 +8,6 @@
 namespace slamscope::slam {
 namespace {
 
-[[gnu::always_inline]] inline Vector4& at(double* place) {
-  return *reinterpret_cast<Vector4*>(place);
-}
-
-[[gnu::always_inline]] inline const Vector4& at(const double* place) {
-  return *reinterpret_cast<const Vector4*>(place);
-}
-
 /// X ← L⁻¹ X for 4 Width columns whose rows are `stride` apart and zero before row `begin`.
 template <int Width>
 [[gnu::always_inline]] inline void forwardBlock(const double* L, std::ptrdiff_t size,
@@ -23,13 +15,13 @@ template <int Width>
                                                 std::ptrdiff_t stride, std::ptrdiff_t begin) {
   for (std::ptrdiff_t i = begin; i < size; ++i) {
     Vector4 sum[Width];
-    for (int k = 0; k < Width; ++k) sum[k] = at(X + i * stride + 4 * k);
+    for (int k = 0; k < Width; ++k) sum[k] = vector4At(X + i * stride + 4 * k);
     for (std::ptrdiff_t j = begin; j < i; ++j) {
       const double l = L[j * L_stride + i];
-      for (int k = 0; k < Width; ++k) sum[k] -= l * at(X + j * stride + 4 * k);
+      for (int k = 0; k < Width; ++k) sum[k] -= l * vector4At(X + j * stride + 4 * k);
     }
     const double inverse = 1.0 / L[i * L_stride + i];
-    for (int k = 0; k < Width; ++k) at(X + i * stride + 4 * k) = inverse * sum[k];
+    for (int k = 0; k < Width; ++k) vector4At(X + i * stride + 4 * k) = inverse * sum[k];
   }
 }
 
@@ -38,7 +30,7 @@ template <int Width>
   if (!(column[j] > 0.0)) return false;
   const double inverse = 1.0 / std::sqrt(column[j]);
   // From the four that hold the diagonal on: what is above it may become anything.
-  for (std::ptrdiff_t i = j / 4 * 4; i < stride; i += 4) at(column + i) *= inverse;
+  for (std::ptrdiff_t i = j / 4 * 4; i < stride; i += 4) vector4At(column + i) *= inverse;
   return true;
 }
 
@@ -51,14 +43,14 @@ template <int Width>
   double* const second = first + stride;
   const double between = first[j + 1];
   for (std::ptrdiff_t i = (j + 1) / 4 * 4; i < stride; i += 4) {
-    at(second + i) -= between * at(first + i);
+    vector4At(second + i) -= between * vector4At(first + i);
   }
   if (!finish(second, stride, j + 1)) return false;
   for (std::ptrdiff_t k = j + 2; k < size; ++k) {
     double* const other = A + k * stride;
     const double of_first = first[k], of_second = second[k];
     for (std::ptrdiff_t i = k / 4 * 4; i < stride; i += 4) {
-      at(other + i) -= of_first * at(first + i) + of_second * at(second + i);
+      vector4At(other + i) -= of_first * vector4At(first + i) + of_second * vector4At(second + i);
     }
   }
   return true;
@@ -78,20 +70,20 @@ SLAMSCOPE_FMA_CLONES
 void solveFourColumns(const double* L, std::ptrdiff_t size, std::ptrdiff_t stride, double* X) {
   for (std::ptrdiff_t j = 0; j < size; ++j) {
     const double* const column = L + j * stride;
-    const Vector4 x = at(X + 4 * j) * (1.0 / column[j]);
-    at(X + 4 * j) = x;
-    for (std::ptrdiff_t i = j + 1; i < size; ++i) at(X + 4 * i) -= column[i] * x;
+    const Vector4 x = vector4At(X + 4 * j) * (1.0 / column[j]);
+    vector4At(X + 4 * j) = x;
+    for (std::ptrdiff_t i = j + 1; i < size; ++i) vector4At(X + 4 * i) -= column[i] * x;
   }
   for (std::ptrdiff_t j = size - 1; j >= 0; --j) {
     const double* const column = L + j * stride;
-    Vector4 even = at(X + 4 * j), odd{};
+    Vector4 even = vector4At(X + 4 * j), odd{};
     std::ptrdiff_t i = j + 1;
     for (; i + 2 <= size; i += 2) {
-      even -= column[i] * at(X + 4 * i);
-      odd -= column[i + 1] * at(X + 4 * (i + 1));
+      even -= column[i] * vector4At(X + 4 * i);
+      odd -= column[i + 1] * vector4At(X + 4 * (i + 1));
     }
-    if (i < size) even -= column[i] * at(X + 4 * i);
-    at(X + 4 * j) = (even + odd) * (1.0 / column[j]);
+    if (i < size) even -= column[i] * vector4At(X + 4 * i);
+    vector4At(X + 4 * j) = (even + odd) * (1.0 / column[j]);
   }
 }
 
@@ -114,9 +106,9 @@ void addSquares(const double* X, std::ptrdiff_t rows, std::ptrdiff_t columns, st
   for (std::ptrdiff_t i = 0; i < rows; ++i) {
     const double* const row = X + i * columns;
     for (std::ptrdiff_t m = 0; m < columns; m += 4) {
-      const Vector4 x = at(row + m);
-      at(squares + m) += x * x;
-      at(along + m) += row[column] * x;
+      const Vector4 x = vector4At(row + m);
+      vector4At(squares + m) += x * x;
+      vector4At(along + m) += row[column] * x;
     }
   }
 }

@@ -8,10 +8,6 @@
 namespace slamscope::slam {
 namespace {
 
-[[gnu::always_inline]] inline const Vector4& at(const double* place) {
-  return *reinterpret_cast<const Vector4*>(place);
-}
-
 /// largest ← the larger of it and |v|, entry by entry.
 [[gnu::always_inline]] inline void raise(Vector4& largest, const Vector4& v) {
   const Vector4 size = v < 0.0 ? -v : v;
@@ -31,7 +27,7 @@ void compareRows(const double* columns, std::ptrdiff_t rows, std::ptrdiff_t coun
     Vector4 sum[2][kComparedImages]{};
     for (std::ptrdiff_t q = 0; q < count; ++q) {
       const double* const from = columns + q * rows + row;
-      const Vector4 first = at(from), second = at(from + 4);
+      const Vector4 first = vector4At(from), second = vector4At(from + 4);
       for (int k = 0; k < kComparedImages; ++k) {
         sum[0][k] += weights[4 * q + k] * first;
         sum[1][k] += weights[4 * q + k] * second;
@@ -39,9 +35,9 @@ void compareRows(const double* columns, std::ptrdiff_t rows, std::ptrdiff_t coun
     }
     for (int half = 0; half < 2; ++half) {
       const double* const from = tall + row + 4 * half;
-      const Vector4 scale = at(from + kComparedImages * rows);
+      const Vector4 scale = vector4At(from + kComparedImages * rows);
       for (int k = 0; k < kComparedImages; ++k) {
-        const Vector4 y = at(from + k * rows);
+        const Vector4 y = vector4At(from + k * rows);
         raise(whole[k], scale * y);
         raise(outside[k], scale * (y - sum[half][k]));
       }
