@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/coverage.glsl"
+#include "common/named.glsl"
 
 layout(constant_id = 0) const bool kLit = true;
 
@@ -31,6 +32,6 @@ void main() {
                       beyond(shaft01.zw, shaft23.xy, turn) - beyond(shaft23.xy, shaft23.zw, turn) -
                       beyond(shaft23.zw, shaft01.xy, turn);
   const float coverage = max(max(head, shaft), 0.0);
-  if (coverage <= 0.0) discard;
-  result = vec4(colour.rgb, colour.a * coverage);
+  if (!covers(coverage, colour)) discard;
+  result = covering(coverage, colour);
 }

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 #include "common/quad.glsl"
+#include "common/named.glsl"
 #include "interop/glyphs.h"
 
 layout(set = 1, binding = 0, scalar) readonly buffer Instances { ArrowGlyph arrows[]; };
@@ -48,6 +49,6 @@ void main() {
   shaft23 = vec4(px[2], px[3]);
   head01 = vec4(px[4], px[5]);
   head2 = px[6];
-  colour = arrow.colour;
+  colour = colourOrName(arrow.colour, gl_InstanceIndex);
   gl_Position = boxCorner(low - 1.0, high + 1.0);
 }

@@ -8,6 +8,7 @@
 #include "common/coverage.glsl"
 #include "common/view.glsl"
 #include "common/shade.glsl"
+#include "common/named.glsl"
 
 // Which fragments: the inside, that hides what is behind, or the edge pixels, that are drawn last
 // and leave the depth alone (else what is behind a cone would end before it reaches its edge).
@@ -59,7 +60,7 @@ void main() {
                    0.0);
   }
   const bool inside = coverage > 0.996;
-  if (coverage <= 0.0 || inside == kEdges) discard;
+  if (!covers(coverage, colour) || inside == kEdges) discard;
 
   const vec2 uv = gl_FragCoord.xy - VIEW(principal);
   const vec3 ray = vec3(0.0, 0.0, 1.0) + uv.x * rayPerU() + uv.y * rayPerV();
@@ -71,5 +72,5 @@ void main() {
 
   vec3 rgb = colour.rgb;
   if (kLit && from_above) rgb = mix(rgb, rgb * 0.72, lid);
-  result = vec4(rgb, colour.a * coverage);
+  result = covering(coverage, vec4(rgb, colour.a));
 }

@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 #include "common/quad.glsl"
+#include "common/named.glsl"
 #include "interop/glyphs.h"
 
 layout(set = 1, binding = 0, scalar) readonly buffer Instances { ConeGlyph cones[]; };
@@ -41,7 +42,7 @@ void main() {
   const float r = cone.radius;
   const float h = cone.height;
   const vec3 rim = tip + h * axis;
-  colour = cone.colour;
+  colour = colourOrName(cone.colour, gl_InstanceIndex);
   const float rim_reach = r * sqrt(max(1.0 - axis.z * axis.z, 0.0));
   if (tip.z <= frame.near || rim.z - rim_reach <= frame.near) {
     gl_Position = nowhere();

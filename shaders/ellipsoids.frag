@@ -7,6 +7,7 @@
 #include "common/view.glsl"
 #include "common/ellipsoid.glsl"
 #include "common/shade.glsl"
+#include "common/named.glsl"
 
 layout(constant_id = 1) const uint kPart = 0u;  // 0: whole, 1: pixels covered whole, 2: the others
 
@@ -31,9 +32,9 @@ void main() {
 
   const Surface surface =
       surfaceAt(D0_scale.xyz, Du, Dv, D0_scale.w, a, A_inverse_transposed, x, at.f);
-  if (coverage <= 0.0 || surface.depth < frame.near) discard;
+  if (!covers(coverage, colour) || surface.depth < frame.near) discard;
   gl_FragDepth = frame.near / surface.depth;
-  result = vec4(shade(colour.rgb, normalize(surface.normal), rayThrough(gl_FragCoord.xy),
-                      edgeDistance(at)),
-                colour.a * coverage);
+  const vec3 rgb = shade(colour.rgb, normalize(surface.normal), rayThrough(gl_FragCoord.xy),
+                         edgeDistance(at), thickness(conic));
+  result = covering(coverage, vec4(rgb, colour.a));
 }

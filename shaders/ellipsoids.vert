@@ -7,6 +7,7 @@
 #include "common/view.glsl"
 #include "common/ellipsoid.glsl"
 #include "common/quad.glsl"
+#include "common/named.glsl"
 #include "common/ellipsoid_quad.glsl"
 #include "interop/glyphs.h"
 
@@ -15,5 +16,6 @@ layout(set = 1, binding = 0, scalar) readonly buffer Instances { EllipsoidGlyph 
 void main() {
   const EllipsoidGlyph e = ellipsoids[gl_InstanceIndex];
   const mat3 R = VIEW(R_eye_shared);
-  emitQuad(seen(eyeFromShared(e.centre), R * mat3(e.axis0, e.axis1, e.axis2)), e.colour);
+  emitQuad(seen(eyeFromShared(e.centre), R * mat3(e.axis0, e.axis1, e.axis2)),
+           colourOrName(e.colour, gl_InstanceIndex));
 }

@@ -6,12 +6,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interop/frame.h"
 #include "interop/glyphs.h"
+#include "interop/groups.h"
 #include "interop/pairs.h"
 
 layout(local_size_x = 1) in;
 
 struct Everything {
   FrameData frame;
+  GroupPairData groups;
   EllipsoidGlyph ellipsoid;
   ConeGlyph cone;
   ArrowGlyph arrow;
@@ -42,6 +44,8 @@ void echo(ViewData v) {
 void main() {
   for (int i = 0; i < 2; ++i) {
     echo(values[i].frame.views[0]), echo(values[i].frame.views[1]), echo(values[i].frame.near), echo(values[i].frame.border_px);
+    const GroupPairData g = values[i].groups;
+    echo(g.least_i), echo(g.least_j), echo(g.greatest_i), echo(g.greatest_j), echo(g.mean);
     const EllipsoidGlyph e = values[i].ellipsoid;
     echo(e.centre), echo(e.axis0), echo(e.axis1), echo(e.axis2), echo(e.colour);
     const ConeGlyph c = values[i].cone;
@@ -58,9 +62,10 @@ void main() {
     const PairsData p = values[i].pairs;
     echo(p.points), echo(p.pairs), echo(p.views), echo(p.law), echo(p.gain), echo(p.unit);
     echo(p.origin), echo(p.ex), echo(p.ey), echo(p.ez), echo(p.scale), echo(p.colour);
-    echo(p.conditions), echo(p.least_area), echo(p.most), echo(p.run);
+    echo(p.conditions), echo(p.least_area), echo(p.most), echo(p.run), echo(p.most_by);
     const PairsCounts n = values[i].counts;
     echo(n.chosen), echo(n.drawn), echo(n.not_finite), echo(n.large), echo(n.vertices);
     echo(n.instances), echo(n.first_vertex), echo(n.first_instance), echo(n.least_key), echo(n.rank);
+    echo(n.greatest_key);
   }
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/named.glsl"
 
 layout(location = 0) flat in vec4 from_to;
 layout(location = 1) flat in vec4 previous_next;
@@ -26,6 +28,6 @@ void main() {
   const bool has_next = previous_next.zw != from_to.zw;
   const bool others = (has_previous && distanceTo(previous_next.xy, from_to.xy) <= own) ||
                       (has_next && distanceTo(from_to.zw, previous_next.zw) < own);
-  if (coverage <= 0.0 || others) discard;
-  result = vec4(colour.rgb, colour.a * coverage);
+  if (!covers(coverage, colour) || others) discard;
+  result = covering(coverage, colour);
 }

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 #include "common/quad.glsl"
+#include "common/named.glsl"
 #include "interop/glyphs.h"
 
 layout(set = 1, binding = 0, scalar) readonly buffer Instances { SegmentGlyph segments[]; };
@@ -56,7 +57,7 @@ void main() {
 
   // Lines thinner than a pixel are a pixel wide and fainter.
   half_width = 0.5 * clamp(s.width_px, 1.0, kMostWidth);
-  colour = vec4(s.colour.rgb, s.colour.a * min(s.width_px, 1.0));
+  colour = colourOrName(vec4(s.colour.rgb, s.colour.a * min(s.width_px, 1.0)), gl_InstanceIndex);
 
   const vec2 whole_p = pixelFromEye(seen_from);
   const vec2 whole_q = pixelFromEye(seen_to);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the area that so many pairs reach or pass (PairChoice::most), exactly: areas are ordered as
-// the bits of floats are, so eight bits are settled at a time. Each round counts the keys that share
+// Finds the key (area or growth) that so many pairs reach or pass (PairChoice::most), exactly: keys
+// are ordered as the bits of floats are, so eight bits are settled at a time. Each round counts the keys that share
 // the bits settled so far by their next eight bits, then one lane goes down from the greatest.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -16,6 +16,7 @@ layout(set = 1, binding = 7, scalar) buffer Histogram { uint histogram[]; };
 
 void count() {
   const uint settled = counts.least_key;
+  uint greatest = 0u;
   const uint first = gl_WorkGroupID.x * 64u * pairs.run + gl_LocalInvocationID.x;
   for (uint k = 0u; k < pairs.run; ++k) {
     const uint number = first + 64u * k;
@@ -23,10 +24,12 @@ void count() {
     const Pair pair = pairAt(number);
     const float area = areaOf(pair.P_d);
     if (!pair.wanted || !(area >= pairs.least_area)) continue;
-    const uint key = floatBitsToUint(area);
+    const uint key = keyOf(pair, area);
+    greatest = max(greatest, key);
     const bool same = kShift == 24u || (key >> (kShift + 8u)) == (settled >> (kShift + 8u));
     if (same) atomicAdd(histogram[key >> kShift & 255u], 1u);
   }
+  if (kShift == 24u && greatest > 0u) atomicMax(counts.greatest_key, greatest);
 }
 
 void settle() {

@@ -7,6 +7,7 @@
 #include "common/coverage.glsl"
 #include "common/view.glsl"
 #include "common/shade.glsl"
+#include "common/named.glsl"
 #include "interop/pairs.h"
 
 layout(set = 1, binding = 0, scalar) uniform Pairs { PairsData pairs; };
@@ -40,6 +41,14 @@ void main() {
   const ConicPoint here = evaluate(conic, gl_FragCoord.xy - reference);
   const float coverage = edge ? conicCoverage(conic, here) : 1.0;
   if (!anything || coverage <= 0.0 && !behind) discard;
+  if (kKind > 0u) {
+    const bool its_own = !behind || coverage >= 0.5;
+    const vec4 name = colourOrName(pairs.colour, its_own ? number : entry.x);
+    if (!covers(its_own ? coverage : 1.0, name)) discard;
+    gl_FragDepth = frame.near / uintBitsToFloat(its_own && edge ? entry.w : entry.y);
+    result = name;
+    return;
+  }
 
   const float seen_depth = uintBitsToFloat(edge ? entry.w : entry.y);
   gl_FragDepth = frame.near / (coverage > 0.0 ? seen_depth : uintBitsToFloat(entry.y));
@@ -50,7 +59,8 @@ void main() {
   const float u_z = sqrt(max(1.0 - dot(q_u.yz, q_u.yz), 0.0));
   const vec3 u = vec3(q_u.yz, q_u.w < 0.0 ? -u_z : u_z);
   const vec3 normal = way - (1.0 - abs(q_u.w)) * dot(u, way) * u;
-  const vec3 rgb = shade(pairs.colour.rgb, normalize(normal), ray, edgeDistance(here));
+  const vec3 rgb = shade(pairs.colour.rgb, normalize(normal), ray, edgeDistance(here),
+                         thickness(conic));
   const vec3 plain = kLit ? kPlain * pairs.colour.rgb : pairs.colour.rgb;
   result = behind ? vec4(mix(plain, rgb, coverage), pairs.colour.a)
                   : vec4(rgb, pairs.colour.a * coverage);

@@ -97,7 +97,7 @@ void splatPixels(Rays r, ivec2 pixel, ivec2 step, bool second_inside, uint base,
 
 void splatSmall(uint number, uint least_key, inout Tally tally) {
   const Pair pair = pairAt(number);
-  if (!pair.wanted || !chosenByArea(pair.P_d, least_key)) return;
+  if (!isChosen(pair, least_key)) return;
   ++tally.chosen;
   const Solid solid = solidOf(pair);
   if (!solid.finite) {

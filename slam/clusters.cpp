@@ -91,11 +91,11 @@ std::vector<Edge> minimumSpanningTree(std::span<const Eigen::Vector2d> points) {
 
 double defaultCut(std::span<const Edge> tree, std::optional<double> held) {
   if (tree.empty()) return 1.0;  // one feature: any distance will do
-  const auto edgesBelow = [&](double cut) {
+  const auto edges_below = [&](double cut) {
     return static_cast<std::size_t>(
         std::count_if(tree.begin(), tree.end(), [&](const Edge& e) { return e.length <= cut; }));
   };
-  if (held && gapRatio(tree, edgesBelow(*held)) >= kHeldGapRatio) return *held;
+  if (held && gapRatio(tree, edges_below(*held)) >= kHeldGapRatio) return *held;
   const std::size_t points = tree.size() + 1;
   std::size_t best = 0;
   double best_ratio = kGapRatio;

@@ -54,20 +54,12 @@ std::vector<FeaturePair> alarmedPairs(const Snapshot& snapshot,
   return pairs;
 }
 
-Eigen::Vector2d centroid(const Snapshot& snapshot, const std::vector<int>& members) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const int k : members) sum += snapshot.features[static_cast<std::size_t>(k)];
-  return sum / static_cast<double>(members.size());
-}
-
 ClusterPair summarise(const Snapshot& snapshot, const Clustering& clusters, int a, int b) {
   const std::vector<int>& members_a = clusters.members[static_cast<std::size_t>(a)];
   const std::vector<int>& members_b = clusters.members[static_cast<std::size_t>(b)];
   ClusterPair result;
   result.a = a;
   result.b = b;
-  result.centroid_a = centroid(snapshot, members_a);
-  result.centroid_b = centroid(snapshot, members_b);
   std::optional<double> least;
   std::optional<double> most;
   for (const int i : members_a) {
@@ -105,6 +97,16 @@ PairMode pairModeFromName(std::string_view name) {
                               "'; known: all, between-clusters, min-mean-max, selected, alarms");
 }
 
+std::vector<Eigen::Vector2d> centroids(const Snapshot& snapshot, const Clustering& clusters) {
+  std::vector<Eigen::Vector2d> means;
+  for (const std::vector<int>& members : clusters.members) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const int k : members) sum += snapshot.features[static_cast<std::size_t>(k)];
+    means.emplace_back(sum / static_cast<double>(members.size()));
+  }
+  return means;
+}
+
 PairSelection selectPairs(const Snapshot& snapshot, PairMode mode, const Clustering& clusters,
                           const PairChoice& choice) {
   PairSelection selection;
@@ -124,13 +126,18 @@ PairSelection selectPairs(const Snapshot& snapshot, PairMode mode, const Cluster
         return clusters.label[i] != clusters.label[j];
       });
       break;
-    case PairMode::min_mean_max:
+    case PairMode::min_mean_max: {
+      const std::vector<Eigen::Vector2d> centres = centroids(snapshot, clusters);
       for (int a = 0; a < clusters.count(); ++a) {
         for (int b = a + 1; b < clusters.count(); ++b) {
-          selection.cluster_pairs.push_back(summarise(snapshot, clusters, a, b));
+          ClusterPair pair = summarise(snapshot, clusters, a, b);
+          pair.centroid_a = centres[static_cast<std::size_t>(a)];
+          pair.centroid_b = centres[static_cast<std::size_t>(b)];
+          selection.cluster_pairs.push_back(pair);
         }
       }
       break;
+    }
     case PairMode::selected:
       selection.pairs = selectedPairs(snapshot, choice.selected);
       break;

@@ -50,6 +50,10 @@ struct PairChoice {
   std::span<const std::pair<FeatureId, FeatureId>> alarms{};  ///< PairMode::alarms
 };
 
+/// Of each cluster the mean of its features' estimates, m.
+[[nodiscard]] std::vector<Eigen::Vector2d> centroids(const Snapshot& snapshot,
+                                                     const Clustering& clusters);
+
 /// The pairs that `mode` shows. `clusters` must be of this snapshot (used by the two modes that
 /// speak of clusters), else std::invalid_argument. Empty where only the diagonal of P was logged.
 [[nodiscard]] PairSelection selectPairs(const Snapshot& snapshot, PairMode mode,

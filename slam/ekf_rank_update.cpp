@@ -18,8 +18,8 @@ constexpr std::ptrdiff_t kBlock = 128;  // rows; a multiple of kRows
 constexpr std::ptrdiff_t kWorthSharing = 2'000'000;
 
 [[gnu::always_inline]] inline void take(double* out, const Vector4& low, const Vector4& high) {
-  *reinterpret_cast<Vector4*>(out) -= low;
-  *reinterpret_cast<Vector4*>(out + 4) -= high;
+  vector4At(out) -= low;
+  vector4At(out + 4) -= high;
 }
 
 /// Rows `begin` … `end` − 1 of the lower triangle, `begin` a multiple of kRows. `panels`: Y in
@@ -34,8 +34,8 @@ void subtractRows(double* P, std::ptrdiff_t size, const double* panels, std::ptr
       // Named one by one: an array of them would live in memory.
       Vector4 low0{}, low1{}, low2{}, low3{}, high0{}, high1{}, high2{}, high3{};
       for (std::ptrdiff_t k = 0; k < m; ++k) {
-        const Vector4 low = *reinterpret_cast<const Vector4*>(left + k * kRows);
-        const Vector4 high = *reinterpret_cast<const Vector4*>(left + k * kRows + 4);
+        const Vector4 low = vector4At(left + k * kRows);
+        const Vector4 high = vector4At(left + k * kRows + 4);
         const double* const y = right + k * kRows;
         low0 += low * y[0], high0 += high * y[0];
         low1 += low * y[1], high1 += high * y[1];

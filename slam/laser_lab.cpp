@@ -66,10 +66,10 @@ LaserScan scanAt(const LaserLab& lab, const LaserLabOptions& options, nanosecond
   for (Eigen::Vector2d& post : posts) {
     for (double& coordinate : post) coordinate += options.sway_sigma * random.normal();
   }
-  constexpr int kReturns = 481;
-  for (std::size_t k = 0; k < kReturns; ++k) {
+  constexpr int kReturnsOfSweep = 481;
+  for (std::size_t k = 0; k < kReturnsOfSweep; ++k) {
     const auto delay =
-        nanoseconds(std::llround(1e9 * kSweep * static_cast<double>(k) / (kReturns - 1)));
+        nanoseconds(std::llround(1e9 * kSweep * static_cast<double>(k) / (kReturnsOfSweep - 1)));
     const Eigen::Vector3d laser = movePose(lab.drive().poseAt(time + delay), kMount.pose_robot);
     const double angle = laser[2] + scan.angle(k);
     const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));

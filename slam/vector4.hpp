@@ -16,4 +16,12 @@ namespace slamscope::slam {
 /// Four doubles, wherever they lie.
 using Vector4 [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 
+[[gnu::always_inline]] inline Vector4& vector4At(double* place) {
+  return *reinterpret_cast<Vector4*>(place);
+}
+
+[[gnu::always_inline]] inline const Vector4& vector4At(const double* place) {
+  return *reinterpret_cast<const Vector4*>(place);
+}
+
 }  // namespace slamscope::slam

@@ -104,14 +104,14 @@ lab::Motion Lab::motion(std::uint64_t k) const {
   lab::Motion motion{.T_world_robot = {pose(robotPoseMap(k))}};
   const std::chrono::nanoseconds window = options_.exposure + options_.readout;
   if (!options_.robot_pose_map || k < options_.rest_frames || window.count() == 0) return motion;
-  const auto poseAt = [&](int i) {
+  const auto pose_at = [&](int i) {
     return options_.robot_pose_map(time(k) - window / 2 + window * i / (kPoses - 1));
   };
-  const Eigen::Vector3d first = poseAt(0);
+  const Eigen::Vector3d first = pose_at(0);
   bool rests = true;
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < kPoses; ++i) {
-    const Eigen::Vector3d here = poseAt(i);
+    const Eigen::Vector3d here = pose_at(i);
     rests = rests && here == first;
     poses.push_back(pose(here));
   }

@@ -72,10 +72,10 @@ LightMap Room::makeLight(const LabOptions& options) {
 void Room::addBoards(const LabOptions& options) {
   constexpr double kHeight = 0.20, kHalfThickness = 0.01;  // m
   for (const LabBoard& board : options.boards) {
-    const auto inWorld = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
+    const auto in_world = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
       return (options.T_world_map * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>();
     };
-    const Eigen::Vector2d from = inWorld(board.from_map), to = inWorld(board.to_map);
+    const Eigen::Vector2d from = in_world(board.from_map), to = in_world(board.to_map);
     const Eigen::Vector2d middle = (from + to) / 2, half((to - from).norm() / 2, kHalfThickness);
     const double yaw = std::atan2(to.y() - from.y(), to.x() - from.x());
     things_.push_back(

@@ -36,15 +36,15 @@ struct Span {
 Prism makeBox(const Eigen::Vector2d& centre, const Eigen::Vector2d& half, double bottom, double top,
               double yaw, double chamfer) {
   Prism prism{.sides = {}, .bottom = bottom, .top = top};
-  const auto addSide = [&](double angle, double reach) {
+  const auto add_side = [&](double angle, double reach) {
     const Eigen::Vector2d n(std::cos(yaw + angle), std::sin(yaw + angle));
     prism.sides.emplace_back(n.x(), n.y(), n.dot(centre) + reach);
   };
   constexpr double kQuarter = std::numbers::pi / 2;
-  for (int i = 0; i < 4; ++i) addSide(i * kQuarter, i % 2 == 0 ? half.x() : half.y());
+  for (int i = 0; i < 4; ++i) add_side(i * kQuarter, i % 2 == 0 ? half.x() : half.y());
   if (chamfer > 0) {
     const double reach = (half.sum() - chamfer) / std::numbers::sqrt2;
-    for (int i = 0; i < 4; ++i) addSide((i + 0.5) * kQuarter, reach);
+    for (int i = 0; i < 4; ++i) add_side((i + 0.5) * kQuarter, reach);
   }
   return prism;
 }

@@ -14,7 +14,8 @@ struct TagCells {
   std::vector<bool> is_black;
 
   [[nodiscard]] bool black(int column, int row) const {
-    return is_black[static_cast<std::size_t>(row * size + column)];
+    return is_black[static_cast<std::size_t>(row) * static_cast<std::size_t>(size) +
+                    static_cast<std::size_t>(column)];
   }
 };
 

@@ -95,7 +95,7 @@ std::vector<Candidate> candidates(const CameraModel& camera, const std::vector<S
       add(T_camera_tag * tag->T_world_tag.inverse());
     }
   }
-  const auto addJoint = [&](int without) {
+  const auto add_joint = [&](int without) {
     Points points;
     for (const CornerSight& corner : corners) {
       if (corner.tag != without) points.add(camera, corner.p, corner.px);
@@ -104,13 +104,13 @@ std::vector<Candidate> candidates(const CameraModel& camera, const std::vector<S
     for (const Isometry3d& T : solvePnP(points, cv::SOLVEPNP_SQPNP)) add(T);
   };
   constexpr int kNone = -1;
-  addJoint(kNone);
+  add_joint(kNone);
   if (prior) add(*prior);
   const auto better = [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; };
   const bool doubtful =
       list.empty() || std::min_element(list.begin(), list.end(), better)->misfit > kDoubtful;
   if (doubtful && seen.size() > 2 && seen.size() <= kMostLeftOut) {
-    for (const Seen& one : seen) addJoint(one.tag->id);  // if it is one tag that is wrong
+    for (const Seen& one : seen) add_joint(one.tag->id);  // if it is one tag that is wrong
   }
   std::sort(list.begin(), list.end(), better);
   return list;

@@ -24,8 +24,8 @@ Eigen::Matrix3d fromRollPitchYaw(const Eigen::Vector3d& rpy) {
 
 }  // namespace
 
-YamlField::YamlField(std::filesystem::path file, std::string name, YAML::Node node)
-    : file_(std::move(file)), name_(std::move(name)), node_(std::move(node)) {}
+YamlField::YamlField(std::filesystem::path file, std::string name, const YAML::Node& node)
+    : file_(std::move(file)), name_(std::move(name)), node_(node) {}
 
 YamlField YamlField::open(const std::filesystem::path& file) {
   if (!std::ifstream(file) || std::filesystem::is_directory(file)) {

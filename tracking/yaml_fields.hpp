@@ -41,7 +41,7 @@ class YamlField {
   [[nodiscard]] bool isText() const { return node_.IsScalar(); }  ///< rather than a map or list
 
  private:
-  YamlField(std::filesystem::path file, std::string name, YAML::Node node);
+  YamlField(std::filesystem::path file, std::string name, const YAML::Node& node);
   [[nodiscard]] Eigen::Isometry3d matrix() const;
 
   std::filesystem::path file_;

@@ -11,6 +11,12 @@ namespace {
 constexpr const char* kCameraGroup = "Camera and registration";
 constexpr const char* kOutputGroup = "Output";
 
+engine::MostBy mostByFromName(const std::string& name) {
+  if (name == "growth") return engine::MostBy::growth;
+  if (name == "last-growth") return engine::MostBy::last_growth;
+  return engine::MostBy::area;
+}
+
 slam::Axis axisFromName(const std::string& name) {
   if (name == "eigenvalue") return slam::Axis::eigenvalue;
   if (name == "log") return slam::Axis::log;
@@ -75,12 +81,19 @@ void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_option("--select", rest.selected, "ids of features whose pairs `--mode selected` shows")
       ->delimiter(',')
       ->group(group);
-  verb.add_option(
-          "--most", rest.most_pairs,
-          "of the pairs of the mode only so many, those with the largest relative covariance")
+  verb.add_option("--most", rest.thinning.most,
+                  "of the pairs of the mode only so many, those that come first by --most-by")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  verb.add_option("--least-area", rest.least_area,
+  verb.add_option("--most-by", flags.most_by,
+                  "area: the largest relative covariances; growth: those that grew most since they "
+                  "were first drawn; last-growth: since the record before")
+      ->check(CLI::IsMember({"area", "growth", "last-growth"}))
+      ->group(group);
+  verb.add_flag("--in-view", rest.thinning.in_view,
+                "no pair but those both of whose features are in the picture")
+      ->group(group);
+  verb.add_option("--least-area", rest.thinning.least_area,
                   "m^2: no pair whose relative covariance has a smaller sqrt(det)")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
@@ -104,6 +117,10 @@ void addDrawingFlags(CLI::App& verb, MonitorFlags& flags) {
   verb.add_flag("--own-error", rest.own_error,
                 "k-sigma ellipses of the registration's own error at each feature: what lies "
                 "further off than that is SLAM's")
+      ->group(group);
+  verb.add_option("--palette", flags.palette,
+                  "paper: the paper's colours; safe: colours that the colour-blind can tell apart")
+      ->check(CLI::IsMember({"paper", "safe"}))
       ->group(group);
   verb.add_option("--opacity", rest.opacity, "of everything drawn, 0 to 1")
       ->check(CLI::Range(0.0, 1.0))
@@ -165,6 +182,11 @@ MonitorOptions MonitorFlags::options() const {
   options.simulation = simulation.options();
   options.continuous = registration == "continuous";
   options.mode = slam::pairModeFromName(mode);
+  options.palette = paletteFromName(palette);
+  options.thinning.by = mostByFromName(most_by);
+  if (options.thinning.by != engine::MostBy::area && options.thinning.most == 0) {
+    throw std::invalid_argument("--most-by " + most_by + " needs --most N");
+  }
   options.axis.axis = axisFromName(axis);
   options.axis.k = k;
   options.axis.gain = gain > 0.0 ? gain : defaultGain(options.axis.axis);

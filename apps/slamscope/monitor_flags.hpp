@@ -14,6 +14,8 @@ struct MonitorFlags {
   std::string registration = "once";
   std::string mode = "all";
   std::string axis = "sigma";
+  std::string palette = "paper";
+  std::string most_by = "area";
   std::string size;
   std::vector<std::string> allow;
   double k = 3.0;

@@ -25,10 +25,9 @@ vk::raii::BufferView Buffer::texels(vk::Format format) const {
 
 void Buffer::create() {
   buffer_ = {core_->device(), vk::BufferCreateInfo{.size = bytes_, .usage = usage_}};
-  memory_ = allocate(*core_, buffer_.getMemoryRequirements(), use_);
+  memory_ = Memory(*core_, buffer_.getMemoryRequirements(), use_);
   buffer_.bindMemory(*memory_, 0);
-  if (use_ != MemoryUse::kDevice)
-    mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+  if (use_ != MemoryUse::kDevice) mapped_ = memory_.map();
 }
 
 }  // namespace slamscope::engine::gpu

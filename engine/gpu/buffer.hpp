@@ -42,7 +42,7 @@ class Buffer {
   std::size_t bytes_;
   vk::BufferUsageFlags usage_;
   MemoryUse use_;
-  vk::raii::DeviceMemory memory_ = nullptr;
+  Memory memory_;
   vk::raii::Buffer buffer_ = nullptr;
   std::byte* mapped_ = nullptr;
 };

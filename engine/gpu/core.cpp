@@ -20,9 +20,11 @@ Core::Core(const GpuOptions& options)
   family_ = drawingFamily(physical_);
   memory_ = physical_.getMemoryProperties();
   limits_ = physical_.getProperties().limits;
-  if (options.most_texels > 0) {
-    limits_.maxTexelBufferElements = std::min(limits_.maxTexelBufferElements, options.most_texels);
-  }
+  const auto lower = [](std::uint32_t& limit, std::uint32_t most) {
+    if (most > 0) limit = std::min(limit, most);
+  };
+  lower(limits_.maxTexelBufferElements, options.most_texels);
+  lower(limits_.maxStorageBufferRange, options.most_storage_bytes);
   wide_atomics_ = options.wide_atomics && hasWideAtomics(physical_);
   device_ = makeDevice(physical_, {.family = family_,
                                    .present = !options.instance_extensions.empty(),

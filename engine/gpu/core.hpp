@@ -24,6 +24,10 @@ class Core {
   [[nodiscard]] std::uint32_t family() const { return family_; }
   [[nodiscard]] const vk::PhysicalDeviceMemoryProperties& memory() const { return memory_; }
   [[nodiscard]] const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+  /// Bytes of the device that are in use now (Memory).
+  [[nodiscard]] std::size_t memoryBytes() const { return memory_bytes_; }
+  void addMemory(std::size_t bytes) const { memory_bytes_ += bytes; }
+  void removeMemory(std::size_t bytes) const { memory_bytes_ -= bytes; }
   /// 64-bit atomics in storage buffers may be used.
   [[nodiscard]] bool wideAtomics() const { return wide_atomics_; }
 
@@ -38,6 +42,7 @@ class Core {
   vk::PhysicalDeviceMemoryProperties memory_;
   vk::PhysicalDeviceLimits limits_;
   bool wide_atomics_ = false;
+  mutable std::size_t memory_bytes_ = 0;
   vk::raii::Device device_ = nullptr;
   vk::raii::Queue queue_ = nullptr;
 };

@@ -18,7 +18,7 @@ DeviceImage::DeviceImage(const Core& core, const ImageInfo& info) : info_(info) 
                                                .tiling = vk::ImageTiling::eOptimal,
                                                .usage = info.usage,
                                                .initialLayout = vk::ImageLayout::eUndefined}};
-  memory_ = allocate(core, image_.getMemoryRequirements(), MemoryUse::kDevice);
+  memory_ = Memory(core, image_.getMemoryRequirements(), MemoryUse::kDevice);
   image_.bindMemory(*memory_, 0);
   view_ = {core.device(), vk::ImageViewCreateInfo{.image = *image_,
                                                   .viewType = vk::ImageViewType::e2DArray,

@@ -26,7 +26,7 @@ class DeviceImage {
 
  private:
   ImageInfo info_;
-  vk::raii::DeviceMemory memory_ = nullptr;
+  Memory memory_;
   vk::raii::Image image_ = nullptr;
   vk::raii::ImageView view_ = nullptr;
 };

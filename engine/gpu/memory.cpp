@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace slamscope::engine::gpu {
@@ -35,8 +36,6 @@ std::optional<std::uint32_t> findType(const vk::PhysicalDeviceMemoryProperties& 
   return std::nullopt;
 }
 
-}  // namespace
-
 vk::raii::DeviceMemory allocate(const Core& core, const vk::MemoryRequirements& requirements,
                                 MemoryUse use) {
   for (const Flags wanted : wishes(use)) {
@@ -51,6 +50,33 @@ vk::raii::DeviceMemory allocate(const Core& core, const vk::MemoryRequirements& 
   }
   throw std::runtime_error("the Vulkan device has no room for " +
                            std::to_string(requirements.size) + " bytes");
+}
+
+}  // namespace
+
+Memory::Memory(const Core& core, const vk::MemoryRequirements& requirements, MemoryUse use)
+    : core_(&core), bytes_(requirements.size), memory_(allocate(core, requirements, use)) {
+  core.addMemory(bytes_);
+}
+
+Memory::~Memory() {
+  if (core_ != nullptr) core_->removeMemory(bytes_);
+}
+
+Memory::Memory(Memory&& other) noexcept
+    : core_(std::exchange(other.core_, nullptr)),
+      bytes_(other.bytes_),
+      memory_(std::move(other.memory_)) {}
+
+Memory& Memory::operator=(Memory&& other) noexcept {
+  std::swap(core_, other.core_);
+  std::swap(bytes_, other.bytes_);
+  std::swap(memory_, other.memory_);
+  return *this;
+}
+
+std::byte* Memory::map() const {
+  return static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
 }
 
 }  // namespace slamscope::engine::gpu

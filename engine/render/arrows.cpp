@@ -11,13 +11,16 @@ namespace slamscope::engine {
 
 ArrowPass::ArrowPass(const PassSetup& setup)
     : instances_(setup.core),
-      pipeline_(setup.core, {.vertex = shaderCode("arrows_vert"),
-                             .fragment = shaderCode("arrows_frag"),
-                             .sets = {setup.frame_layout, instances_.set().layout()},
-                             .view_mask = setup.view_mask}) {}
+      looks_(setup.core,
+             {.vertex = shaderCode("arrows_vert"),
+              .fragment = shaderCode("arrows_frag"),
+              .sets = {setup.frame_layout, instances_.set().layout()},
+              .view_mask = setup.view_mask},
+             0, Picked::Kind::arrow) {}
 
 void ArrowPass::update(std::span<const Arrow> arrows, const ViewSet& views, int& not_drawn) {
   std::vector<interop::ArrowGlyph> glyphs;
+  tags_.clear();
   for (const Arrow& arrow : arrows) {
     const bool finite = arrow.origin.allFinite() && std::isfinite(arrow.heading) &&
                         std::isfinite(arrow.length) && std::isfinite(arrow.width);
@@ -31,12 +34,13 @@ void ArrowPass::update(std::span<const Arrow> arrows, const ViewSet& views, int&
                       .along = views.direction(arrow.length * ahead),
                       .across = views.direction(0.5 * arrow.width * left),
                       .colour = views.colour(arrow.colour)});
+    tags_.push_back(arrow.tag);
   }
   instances_.upload<interop::ArrowGlyph>(glyphs);
 }
 
 void ArrowPass::record(const FrameContext& context) const {
-  context.draw("arrows", pipeline_, instances_.set().handle(), 4, instances_.count());
+  context.draw("arrows", looks_[context.look], instances_.set().handle(), 4, instances_.count());
 }
 
 }  // namespace slamscope::engine

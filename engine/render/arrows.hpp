@@ -17,10 +17,13 @@ class ArrowPass {
 
   void update(std::span<const Arrow> arrows, const ViewSet& views, int& not_drawn);
   void record(const FrameContext& context) const;
+  /// By instance, as Look::named numbers them.
+  [[nodiscard]] std::span<const std::uint64_t> tags() const { return tags_; }
 
  private:
   Instances instances_;
-  gpu::Pipeline pipeline_;
+  Looks looks_;
+  std::vector<std::uint64_t> tags_;
 };
 
 }  // namespace slamscope::engine

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "engine/render/shader_code.hpp"
 
@@ -10,15 +11,16 @@ namespace slamscope::engine {
 
 namespace {
 
-gpu::Pipeline pipeline(const PassSetup& setup, const Instances& instances, bool lit, bool edges) {
+Looks looksOf(const PassSetup& setup, const Instances& instances, bool edges) {
   return {setup.core,
           {.vertex = shaderCode("cones_vert"),
            .fragment = shaderCode("cones_frag"),
            .sets = {setup.frame_layout, instances.set().layout()},
            .view_mask = setup.view_mask,
            .depth_test = true,
-           .depth_write = !edges,
-           .constants = {lit ? VK_TRUE : VK_FALSE, edges ? VK_TRUE : VK_FALSE}}};
+           .depth_write = !edges},
+          edges ? VK_TRUE : VK_FALSE,
+          Picked::Kind::cone};
 }
 
 bool drawable(const Cone& cone) {
@@ -30,38 +32,45 @@ bool drawable(const Cone& cone) {
 
 ConePass::ConePass(const PassSetup& setup)
     : instances_(setup.core),
-      inside_flat_(pipeline(setup, instances_, false, false)),
-      inside_lit_(pipeline(setup, instances_, true, false)),
-      edges_flat_(pipeline(setup, instances_, false, true)),
-      edges_lit_(pipeline(setup, instances_, true, true)) {}
+      inside_(looksOf(setup, instances_, false)),
+      edges_(looksOf(setup, instances_, true)) {}
 
 void ConePass::update(std::span<const Cone> cones, const ViewSet& views, int& not_drawn) {
-  std::vector<std::pair<double, interop::ConeGlyph>> sorted;
+  struct Keyed {
+    double distance = 0.0;
+    interop::ConeGlyph glyph;
+    std::uint64_t tag = 0;
+  };
+  std::vector<Keyed> sorted;
   for (const Cone& cone : cones) {
     if (!drawable(cone)) {
       ++not_drawn;
       continue;
     }
-    sorted.push_back({(views.T_shared_scene() * cone.tip).norm(),
-                      {.tip = views.point(cone.tip),
-                       .axis = views.direction(Eigen::Vector3d::UnitZ()),
-                       .height = static_cast<float>(cone.height),
-                       .radius = static_cast<float>(cone.radius),
-                       .colour = views.colour(cone.colour)}});
+    sorted.push_back({.distance = (views.T_shared_scene() * cone.tip).norm(),
+                      .glyph = {.tip = views.point(cone.tip),
+                                .axis = views.direction(Eigen::Vector3d::UnitZ()),
+                                .height = static_cast<float>(cone.height),
+                                .radius = static_cast<float>(cone.radius),
+                                .colour = views.colour(cone.colour)},
+                      .tag = cone.tag});
   }
-  std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ranges::stable_sort(sorted, std::greater<>(), &Keyed::distance);
   std::vector<interop::ConeGlyph> glyphs;
-  for (const auto& [distance, glyph] : sorted) glyphs.push_back(glyph);
+  tags_.clear();
+  for (const Keyed& each : sorted) {
+    glyphs.push_back(each.glyph);
+    tags_.push_back(each.tag);
+  }
   instances_.upload<interop::ConeGlyph>(glyphs);
 }
 
 void ConePass::recordInside(const FrameContext& context) const {
-  context.draw("cones", context.lit ? inside_lit_ : inside_flat_, instances_.set().handle(), 4,
-               instances_.count());
+  context.draw("cones", inside_[context.look], instances_.set().handle(), 4, instances_.count());
 }
 
 void ConePass::recordEdges(const FrameContext& context) const {
-  context.draw("cone edges", context.lit ? edges_lit_ : edges_flat_, instances_.set().handle(), 4,
+  context.draw("cone edges", edges_[context.look], instances_.set().handle(), 4,
                instances_.count());
 }
 

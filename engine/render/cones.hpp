@@ -21,10 +21,13 @@ class ConePass {
   void update(std::span<const Cone> cones, const ViewSet& views, int& not_drawn);
   void recordInside(const FrameContext& context) const;
   void recordEdges(const FrameContext& context) const;
+  /// By instance, as Look::named numbers them.
+  [[nodiscard]] std::span<const std::uint64_t> tags() const { return tags_; }
 
  private:
   Instances instances_;
-  gpu::Pipeline inside_flat_, inside_lit_, edges_flat_, edges_lit_;
+  Looks inside_, edges_;
+  std::vector<std::uint64_t> tags_;
 };
 
 }  // namespace slamscope::engine

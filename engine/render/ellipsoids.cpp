@@ -15,16 +15,6 @@ namespace {
 
 constexpr std::uint32_t kWhole = 0;  // as in ellipsoids.frag
 
-gpu::PipelineInfo pipelineInfo(const PassSetup& setup, const Instances& instances, bool lit) {
-  return {.vertex = shaderCode("ellipsoids_vert"),
-          .fragment = shaderCode("ellipsoids_frag"),
-          .sets = {setup.frame_layout, instances.set().layout()},
-          .view_mask = setup.view_mask,
-          .depth_test = true,
-          .depth_write = true,
-          .constants = {lit ? VK_TRUE : VK_FALSE, kWhole}};
-}
-
 bool orthogonal(const Eigen::Matrix3d& axes) {
   const Eigen::Matrix3d gram = axes.transpose() * axes;
   const double off = std::abs(gram(0, 1)) + std::abs(gram(0, 2)) + std::abs(gram(1, 2));
@@ -35,6 +25,7 @@ struct Keyed {
   long long distance = 0;  // of the centre, in units of 0.1 µm: rounding must not decide the order
   double size = 0.0;
   interop::EllipsoidGlyph glyph;
+  std::uint64_t tag = 0;
 };
 
 /// Farther first; of concentric ones the inner first, as the outer lies over it. The rest only
@@ -64,8 +55,14 @@ Eigen::Matrix3d drawableAxes(const Eigen::Matrix3d& axes, double distance) {
 
 EllipsoidPass::EllipsoidPass(const PassSetup& setup)
     : instances_(setup.core),
-      pipelines_{gpu::Pipeline(setup.core, pipelineInfo(setup, instances_, false)),
-                 gpu::Pipeline(setup.core, pipelineInfo(setup, instances_, true))} {}
+      looks_(setup.core,
+             {.vertex = shaderCode("ellipsoids_vert"),
+              .fragment = shaderCode("ellipsoids_frag"),
+              .sets = {setup.frame_layout, instances_.set().layout()},
+              .view_mask = setup.view_mask,
+              .depth_test = true,
+              .depth_write = true},
+             kWhole, Picked::Kind::ellipsoid) {}
 
 void EllipsoidPass::update(std::span<const Ellipsoid> ellipsoids, const ViewSet& views,
                            int& not_drawn) {
@@ -84,16 +81,21 @@ void EllipsoidPass::update(std::span<const Ellipsoid> ellipsoids, const ViewSet&
                                .axis0 = views.direction(axes.col(0)),
                                .axis1 = views.direction(axes.col(1)),
                                .axis2 = views.direction(axes.col(2)),
-                               .colour = views.colour(ellipsoid.colour)}});
+                               .colour = views.colour(ellipsoid.colour)},
+                     .tag = ellipsoid.tag});
   }
   std::ranges::sort(keyed, drawnBefore);
   sorted_.clear();
-  for (const Keyed& each : keyed) sorted_.push_back(each.glyph);
+  tags_.clear();
+  for (const Keyed& each : keyed) {
+    sorted_.push_back(each.glyph);
+    tags_.push_back(each.tag);
+  }
   instances_.upload<interop::EllipsoidGlyph>(sorted_);
 }
 
 void EllipsoidPass::record(const FrameContext& context) const {
-  context.draw("ellipsoids", pipelines_[context.lit ? 1 : 0], instances_.set().handle(), 4,
+  context.draw("ellipsoids", looks_[context.look], instances_.set().handle(), 4,
                instances_.count());
 }
 

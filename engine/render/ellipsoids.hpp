@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -24,11 +23,14 @@ class EllipsoidPass {
   /// depend on the order given. Counts those with a number that is not finite in `not_drawn`.
   void update(std::span<const Ellipsoid> ellipsoids, const ViewSet& views, int& not_drawn);
   void record(const FrameContext& context) const;
+  /// By instance, as Look::named numbers them.
+  [[nodiscard]] std::span<const std::uint64_t> tags() const { return tags_; }
 
  private:
   Instances instances_;
-  std::array<gpu::Pipeline, 2> pipelines_;  // flat, lit
+  Looks looks_;
   std::vector<interop::EllipsoidGlyph> sorted_;
+  std::vector<std::uint64_t> tags_;
 };
 
 /// The same ellipsoid with orthogonal semi-axes, none of length 0, seen from `distance` m.

@@ -10,6 +10,7 @@
 #include "engine/gpu/submission.hpp"
 #include "engine/gpu/timestamps.hpp"
 #include "engine/render/lens_pass.hpp"
+#include "engine/render/name_picture.hpp"
 #include "engine/render/renderer.hpp"
 
 namespace slamscope::engine {
@@ -59,6 +60,7 @@ struct Frame::Parts {
   gpu::DeviceImage colour, depth;
   Renderer renderer;
   std::optional<LensPass> lens;
+  std::optional<NamePicture> names;  ///< from the first pick on
   gpu::Timestamps timestamps;
   FrameStats stats;
   gpu::Submission submission;  // destroyed first: waits for the device
@@ -118,6 +120,11 @@ void Frame::wait() {
   parts_->submission.wait();
 }
 
+std::optional<Picked> Frame::pick(const PickPlace& place) {
+  if (!parts_->names) parts_->names.emplace(parts_->core, parts_->colour);
+  return parts_->names->pick(parts_->submission, parts_->renderer, parts_->depth, place);
+}
+
 const gpu::DeviceImage& Frame::colour() const {
   return parts_->lens ? parts_->lens->shown() : parts_->colour;
 }
@@ -126,6 +133,7 @@ FrameStats Frame::stats() const {
   FrameStats stats = parts_->stats;
   stats.gpu_ms = parts_->timestamps.elapsedMs();
   stats.pairs = parts_->renderer.pairStats();
+  stats.device_bytes = parts_->core.memoryBytes();
   return stats;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/render/options.hpp"
 #include "engine/scene/glyphs.hpp"
 #include "engine/scene/lens.hpp"
+#include "engine/scene/picked.hpp"
 #include "engine/scene/view.hpp"
 
 namespace slamscope::engine {
@@ -45,6 +47,10 @@ class Frame {
               const std::vector<vk::Semaphore>& signals = {});
   /// Until the device is done.
   void wait();
+
+  /// What of the frame recorded last is seen at a pixel of it, before any lens; as
+  /// Offscreen::pick(). Waits for the device.
+  [[nodiscard]] std::optional<Picked> pick(const PickPlace& place);
 
   /// What is to be shown: RGBA8 UNORM, one layer a view.
   [[nodiscard]] const gpu::DeviceImage& colour() const;

@@ -5,6 +5,7 @@
 
 #include "engine/gpu/descriptors.hpp"
 #include "engine/gpu/pipeline.hpp"
+#include "engine/render/looks.hpp"
 #include "engine/render/options.hpp"
 
 namespace slamscope::engine {
@@ -20,7 +21,7 @@ struct PassSetup {
 struct FrameContext {
   const vk::raii::CommandBuffer& commands;
   vk::DescriptorSet frame_set;
-  bool lit = true;
+  Look look = Look::lit;
   FrameStats& stats;
 
   /// One draw of a strip of `vertices` for each instance, into all views; counted under `pass`.

@@ -47,10 +47,12 @@ std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& points,
 
 LinePass::LinePass(const PassSetup& setup)
     : instances_(setup.core),
-      pipeline_(setup.core, {.vertex = shaderCode("lines_vert"),
-                             .fragment = shaderCode("lines_frag"),
-                             .sets = {setup.frame_layout, instances_.set().layout()},
-                             .view_mask = setup.view_mask}) {}
+      looks_(setup.core,
+             {.vertex = shaderCode("lines_vert"),
+              .fragment = shaderCode("lines_frag"),
+              .sets = {setup.frame_layout, instances_.set().layout()},
+              .view_mask = setup.view_mask},
+             0, Picked::Kind::line) {}
 
 void LinePass::append(const Polyline& line, const ViewSet& views) {
   std::vector<interop::vec3> points;
@@ -64,11 +66,13 @@ void LinePass::append(const Polyline& line, const ViewSet& views) {
                          .next = points[std::min(i + 2, points.size() - 1)],
                          .width_px = static_cast<float>(line.width_px),
                          .colour = views.colour(line.colour)});
+    tags_.push_back(line.tag);
   }
 }
 
 void LinePass::update(std::span<const Polyline> lines, const ViewSet& views, int& not_drawn) {
   segments_.clear();
+  tags_.clear();
   for (const Polyline& line : lines) {
     if (drawable(line)) {
       append(line, views);
@@ -80,7 +84,7 @@ void LinePass::update(std::span<const Polyline> lines, const ViewSet& views, int
 }
 
 void LinePass::record(const FrameContext& context) const {
-  context.draw("lines", pipeline_, instances_.set().handle(), 4, instances_.count());
+  context.draw("lines", looks_[context.look], instances_.set().handle(), 4, instances_.count());
 }
 
 }  // namespace slamscope::engine

@@ -20,13 +20,16 @@ class LinePass {
 
   void update(std::span<const Polyline> lines, const ViewSet& views, int& not_drawn);
   void record(const FrameContext& context) const;
+  /// By instance, as Look::named numbers them.
+  [[nodiscard]] std::span<const std::uint64_t> tags() const { return tags_; }
 
  private:
   void append(const Polyline& line, const ViewSet& views);
 
   Instances instances_;
-  gpu::Pipeline pipeline_;
+  Looks looks_;
   std::vector<interop::SegmentGlyph> segments_;
+  std::vector<std::uint64_t> tags_;
 };
 
 }  // namespace slamscope::engine

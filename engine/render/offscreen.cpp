@@ -10,8 +10,8 @@
 namespace slamscope::engine {
 
 struct Offscreen::Parts {
-  Parts(std::shared_ptr<Gpu> gpu_, int width, int height, int views)
-      : gpu(std::move(gpu_)),
+  Parts(std::shared_ptr<Gpu> the_gpu, int width, int height, int views)
+      : gpu(std::move(the_gpu)),
         frame(gpu->core(), width, height, views),
         readback(gpu->core(), frame.colour().extent(), frame.colour().layers()) {}
 
@@ -19,6 +19,7 @@ struct Offscreen::Parts {
   Frame frame;
   gpu::Readback readback;
   FrameStats stats;
+  bool drawn = false;
 };
 
 Offscreen::Offscreen(std::shared_ptr<Gpu> gpu, int width, int height, int views)
@@ -53,8 +54,13 @@ void Offscreen::draw(std::span<const View> views, const Scene& scene, const Rend
     pictures[i].rgba.assign(texels.begin(), texels.end());
   }
   parts_->stats = parts_->frame.stats();
+  parts_->drawn = true;
   parts_->stats.cpu_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::optional<Picked> Offscreen::pick(const PickPlace& place) {
+  return parts_->drawn ? parts_->frame.pick(place) : std::nullopt;
 }
 
 const FrameStats& Offscreen::lastStats() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/render/options.hpp"
 #include "engine/scene/glyphs.hpp"
 #include "engine/scene/lens.hpp"
+#include "engine/scene/picked.hpp"
 #include "engine/scene/view.hpp"
 
 namespace slamscope::engine {
@@ -37,6 +39,12 @@ class Offscreen {
   /// The same into pictures whose memory is used again.
   void draw(std::span<const View> views, const Scene& scene, const RenderOptions& options,
             std::vector<Image>& pictures);
+
+  /// What the pictures of the last draw() show at a pixel (before any lens), by whichever way it
+  /// was drawn: the glyph that covers at least half of it and is not hidden. Nothing outside of the
+  /// picture and before the first draw(). Throws std::invalid_argument for a view that wasn't
+  /// drawn.
+  [[nodiscard]] std::optional<Picked> pick(const PickPlace& place);
 
   /// Of the last draw().
   [[nodiscard]] const FrameStats& lastStats() const;

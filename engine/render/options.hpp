@@ -46,16 +46,18 @@ struct FrameStats {
     std::size_t chosen = 0;          ///< that meet the conditions
     std::size_t drawn = 0;           ///< of the chosen, those in the picture of a view
     std::size_t not_finite = 0;      ///< of the chosen, those that have no ellipsoid
+    float greatest_growth = 0.0F;    ///< where ranked by it (MostBy): the greatest ratio; else 0
     std::size_t uploaded_bytes = 0;  ///< of points and covariance; 0 where only the viewer moved
     bool splatted = false;
     std::string problem;  ///< why nothing is drawn; one line, empty where nothing is wrong
   };
 
   Pairs pairs;
-  std::vector<Pass> passes;  ///< in the order of drawing
-  int not_drawn = 0;         ///< glyphs left out because a number in them is not finite
-  double cpu_ms = 0.0;       ///< sorting, upload, recording, waiting and reading back
-  double gpu_ms = 0.0;       ///< by the device's timestamps
+  std::vector<Pass> passes;      ///< in the order of drawing
+  int not_drawn = 0;             ///< glyphs left out because a number in them is not finite
+  double cpu_ms = 0.0;           ///< sorting, upload, recording, waiting and reading back
+  double gpu_ms = 0.0;           ///< by the device's timestamps
+  std::size_t device_bytes = 0;  ///< of the device's memory, by everything that uses this Gpu
 
   /// Draw calls of the pass of that name; 0 where there is none.
   [[nodiscard]] int draws(const std::string& pass) const;

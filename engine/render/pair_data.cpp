@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "engine/gpu/barrier.hpp"
+#include "engine/render/covariance_room.hpp"
+#include "engine/scene/clip.hpp"
 
 namespace slamscope::engine {
 
@@ -17,6 +19,7 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr std::uint32_t kDifferentGroups = 1;  // as in pairs.glsl
 constexpr std::uint32_t kTouching = 2;
 constexpr std::uint32_t kSomeLeftOut = 4;
+constexpr std::uint32_t kBothInView = 8;
 
 constexpr std::size_t kTexelsOfAPoint = 2;  // as in pairs.glsl
 
@@ -30,7 +33,11 @@ vk::Format texelFormat(std::uint32_t binding) {
     case PairData::kLeftOut:
     case PairData::kDepths:
     case PairData::kTileTexels:
+    case PairData::kInView:
+    case PairData::kIndexThen:
       return vk::Format::eR32Uint;
+    case PairData::kThen:
+      return vk::Format::eR32G32Sfloat;
     case PairData::kNearest:
       return vk::Format::eR32G32B32A32Uint;
     default:
@@ -57,7 +64,8 @@ std::vector<gpu::Binding> bindings() {
 
 std::uint32_t conditionsOf(const PairChoice& choice) {
   return (choice.groups.empty() ? 0 : kDifferentGroups) |
-         (choice.touching.empty() ? 0 : kTouching) | (choice.left_out.empty() ? 0 : kSomeLeftOut);
+         (choice.touching.empty() ? 0 : kTouching) | (choice.left_out.empty() ? 0 : kSomeLeftOut) |
+         (choice.in_view ? kBothInView : 0);
 }
 
 /// Of a pair by its places in the order.
@@ -107,6 +115,13 @@ std::uint32_t runOf(std::size_t pairs) {
       std::clamp<std::size_t>((pairs + kLanesAtOnce - 1) / kLanesAtOnce, 1, 64));
 }
 
+bool inPicture(const View& view, const Eigen::Vector3d& p_scene, double near) {
+  const Eigen::Vector3d p = view.T_eye_scene * p_scene;
+  if (!(p.z() >= near)) return false;
+  const Eigen::Array2d corner = project(view.camera, p).array() + 0.5;
+  return (corner >= 0.0).all() && corner.x() < view.camera.width && corner.y() < view.camera.height;
+}
+
 interop::PairsData dataOf(const PairGlyphs& glyphs, const ViewSet& views) {
   const PlanarPoints& points = *glyphs.points;
   const Eigen::Vector2d origin = glyphs.scale * points.origin();
@@ -125,7 +140,8 @@ interop::PairsData dataOf(const PairGlyphs& glyphs, const ViewSet& views) {
           .conditions = conditionsOf(glyphs.choice),
           .least_area = static_cast<float>(glyphs.choice.least_area),
           .most = glyphs.choice.most,
-          .run = runOf(points.pairCount())};
+          .run = runOf(points.pairCount()),
+          .most_by = static_cast<std::uint32_t>(glyphs.choice.most_by)};
 }
 
 }  // namespace
@@ -136,6 +152,7 @@ PairData::PairData(const gpu::Core& core)
       points_(core, 0, Usage::eUniformTexelBuffer, gpu::MemoryUse::kUpload),
       blocks_(core, 0, Usage::eUniformTexelBuffer, gpu::MemoryUse::kUpload),
       left_out_(core, 0, Usage::eUniformTexelBuffer, gpu::MemoryUse::kUpload),
+      in_view_(core, 0, Usage::eUniformTexelBuffer, gpu::MemoryUse::kUpload),
       counts_(core, sizeof(interop::PairsCounts),
               Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eTransferSrc |
                   Usage::eTransferDst,
@@ -150,8 +167,11 @@ PairData::PairData(const gpu::Core& core)
   bind(kPoints, points_);
   bind(kBlocks, blocks_);
   bind(kLeftOut, left_out_);
+  bind(kInView, in_view_);
   bind(kCounts, counts_);
-  for (std::uint32_t i = kList; i < kBindings; ++i) bind(static_cast<Binding>(i), nothing_);
+  for (std::uint32_t i = kList; i < kBindings; ++i) {
+    if (i != kInView) bind(static_cast<Binding>(i), nothing_);
+  }
   counts_read_.as<interop::PairsCounts>(1)[0] = {};
 }
 
@@ -167,15 +187,6 @@ void PairData::bind(Binding binding, const gpu::Buffer& buffer) {
 
 const interop::PairsCounts& PairData::counts() const {
   return counts_read_.as<interop::PairsCounts>(1)[0];
-}
-
-std::string PairData::problemWith(const PlanarPoints& points) const {
-  const std::size_t most = core_.limits().maxTexelBufferElements;
-  const std::size_t needed = points.blocks().size();
-  if (needed <= most) return {};
-  return "the covariance of " + std::to_string(points.count()) + " points has " +
-         std::to_string(needed) + " blocks, and a buffer of this device no more than " +
-         std::to_string(most);
 }
 
 void PairData::sendPoints(const PlanarPoints& points) {
@@ -219,20 +230,44 @@ void PairData::sendLeftOut() {
   }
 }
 
+bool PairData::sendInView(const PairGlyphs& glyphs, const ViewSet& views) {
+  const PlanarPoints& points = *glyphs.points;
+  std::vector<std::uint32_t> bits((points.means().size() + 31) / 32, 0);
+  for (std::size_t i = 0; i < points.means().size(); ++i) {
+    const Eigen::Vector2d p = glyphs.scale * (points.origin() + points.means()[i].cast<double>());
+    const auto seen_by = [&](const View& view) {
+      return inPicture(view, {p.x(), p.y(), 0.0}, views.options().near_m);
+    };
+    if (std::ranges::any_of(views.views(), seen_by)) bits[i / 32] |= 1U << i % 32;
+  }
+  if (bits == seen_) return false;
+  if (in_view_.reserve(bits.size() * sizeof(std::uint32_t))) bind(kInView, in_view_);
+  std::ranges::copy(bits, in_view_.as<std::uint32_t>(bits.size()).begin());
+  seen_ = std::move(bits);
+  return true;
+}
+
 void PairData::update(const PairGlyphs& glyphs, const ViewSet& views) {
   uploaded_bytes_ = 0;
-  problem_ = problemWith(*glyphs.points);
+  problem_ = lackOfRoom(core_, *glyphs.points);
   if (!problem_.empty()) return;
   data_ = dataOf(glyphs, views);
   pairs_.as<interop::PairsData>(1)[0] = data_;
   const bool others = glyphs.points != sent_;
-  changed_ = others || glyphs.choice != choice_;
+  const bool others_seen = glyphs.choice.in_view && sendInView(glyphs, views);
+  changed_ = others || others_seen || glyphs.choice != choice_;
   if (!changed_) return;
   choice_ = glyphs.choice;
   if (others) sendPoints(*glyphs.points);
   sent_ = glyphs.points;
   sendTable(*sent_);
   sendLeftOut();
+}
+
+std::pair<std::uint32_t, std::uint32_t> PairData::pointsOf(std::uint32_t number) const {
+  std::uint32_t j = 1;
+  while (numberOf(0, j + 1) <= number) ++j;
+  return std::minmax({order_.at(number - numberOf(0, j)), order_.at(j)});
 }
 
 std::uint32_t PairData::groupCount() const {

@@ -34,6 +34,11 @@ class PairData {
     kFaceTexels,
     kTiles,  ///< not 0 where something was splatted
     kTileTexels,
+    kInView = 22,  ///< texels
+    kThen,         ///< texels: kNewAreas
+    kIndexThen,    ///< texels
+    kOldAreas,     ///< by block, what the area is compared with and what it was last (PairGrowth)
+    kNewAreas,
     kBindings,
   };
 
@@ -57,11 +62,14 @@ class PairData {
   [[nodiscard]] std::size_t uploadedBytes() const { return uploaded_bytes_; }
   [[nodiscard]] const PairChoice& choice() const { return choice_; }
   [[nodiscard]] const interop::PairsData& data() const { return data_; }
+  [[nodiscard]] const PlanarPointsPtr& points() const { return sent_; }
   /// Of the frame last waited for.
   [[nodiscard]] const interop::PairsCounts& counts() const;
 
   [[nodiscard]] const gpu::DescriptorSet& set() const { return set_; }
   [[nodiscard]] vk::Buffer countsBuffer() const { return counts_.handle(); }
+  /// The points i < j of the pair that shaders number so.
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> pointsOf(std::uint32_t number) const;
   /// Gives a pass's buffer its place in the set.
   void bind(Binding binding, const gpu::Buffer& buffer);
 
@@ -69,11 +77,13 @@ class PairData {
   void sendPoints(const PlanarPoints& points);
   void sendTable(const PlanarPoints& points);
   void sendLeftOut();
-  [[nodiscard]] std::string problemWith(const PlanarPoints& points) const;
+  /// True where another point came into view or left it.
+  [[nodiscard]] bool sendInView(const PairGlyphs& glyphs, const ViewSet& views);
 
   const gpu::Core& core_;
-  gpu::Buffer pairs_, points_, blocks_, left_out_, counts_, counts_read_, nothing_;
+  gpu::Buffer pairs_, points_, blocks_, left_out_, in_view_, counts_, counts_read_, nothing_;
   std::vector<std::uint32_t> order_;          ///< points as the device has them, by index
+  std::vector<std::uint32_t> seen_;           ///< bits of in_view_
   std::vector<vk::raii::BufferView> texels_;  ///< by binding
   gpu::DescriptorSet set_;
   PlanarPointsPtr sent_;  ///< what the device has; held, so that no other can have its address

@@ -19,14 +19,13 @@ std::vector<vk::DescriptorSetLayout> pairQuadSets(const PassSetup& setup, const 
   return {setup.frame_layout, data.set().layout()};
 }
 
-gpu::PipelineInfo pairQuadInfo(const PassSetup& setup, const PairData& data, bool lit, Part part) {
+gpu::PipelineInfo pairQuadInfo(const PassSetup& setup, const PairData& data, Part part) {
   return {.vertex = shaderCode("pairs_vert"),
           .fragment = shaderCode("ellipsoids_frag"),
           .sets = pairQuadSets(setup, data),
           .view_mask = setup.view_mask,
           .depth_test = true,
-          .depth_write = part == kInside,
-          .constants = {lit ? VK_TRUE : VK_FALSE, part}};
+          .depth_write = part == kInside};
 }
 
 std::uint32_t runsOf(const PairData& data) {
@@ -35,12 +34,8 @@ std::uint32_t runsOf(const PairData& data) {
 
 gpu::PipelineInfo depthOnly(gpu::PipelineInfo info) {
   info.colour_write = false;
+  info.constants = {VK_FALSE, kInside};
   return info;
-}
-
-std::array<gpu::Pipeline, 2> flatAndLit(const PassSetup& setup, const PairData& data, Part part) {
-  return {gpu::Pipeline(setup.core, pairQuadInfo(setup, data, false, part)),
-          gpu::Pipeline(setup.core, pairQuadInfo(setup, data, true, part))};
 }
 
 }  // namespace
@@ -51,9 +46,9 @@ PairQuads::PairQuads(const PassSetup& setup, const PairData& data)
       count_(setup.core, shaderCode("pairs_list_comp"), pairQuadSets(setup, data), {VK_FALSE}),
       place_(setup.core, shaderCode("pairs_place_comp"), pairQuadSets(setup, data)),
       write_(setup.core, shaderCode("pairs_list_comp"), pairQuadSets(setup, data), {VK_TRUE}),
-      depth_(setup.core, depthOnly(pairQuadInfo(setup, data, false, kInside))),
-      inside_(flatAndLit(setup, data, kInside)),
-      edges_(flatAndLit(setup, data, kEdges)) {}
+      depth_(setup.core, depthOnly(pairQuadInfo(setup, data, kInside))),
+      inside_(setup.core, pairQuadInfo(setup, data, kInside), kInside, Picked::Kind::pair),
+      edges_(setup.core, pairQuadInfo(setup, data, kEdges), kEdges, Picked::Kind::pair) {}
 
 void PairQuads::update(PairData& data) {
   list_.reserve(data.pairCount() * sizeof(std::uint32_t));
@@ -84,8 +79,8 @@ void PairQuads::record(const FrameContext& context, const PairData& data) const 
   };
   // Translucent ones fade as one layer: what is nearest must be known before anything is blended.
   if (data.data().colour[3] < 1.0F) draw(depth_);
-  draw(inside_[context.lit ? 1 : 0]);
-  draw(edges_[context.lit ? 1 : 0]);
+  draw(inside_[context.look]);
+  draw(edges_[context.look]);
 }
 
 }  // namespace slamscope::engine

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-
 #include "engine/gpu/compute_pipeline.hpp"
 #include "engine/render/frame_context.hpp"
 #include "engine/render/pair_data.hpp"
@@ -28,7 +26,7 @@ class PairQuads {
   gpu::Buffer list_, runs_;
   gpu::ComputePipeline count_, place_, write_;
   gpu::Pipeline depth_;
-  std::array<gpu::Pipeline, 2> inside_, edges_;  // flat, lit
+  Looks inside_, edges_;
 };
 
 }  // namespace slamscope::engine

@@ -2,6 +2,7 @@
 #include "engine/render/pair_ranking.hpp"
 
 #include <array>
+#include <cstddef>
 
 #include "engine/gpu/barrier.hpp"
 #include "engine/render/shader_code.hpp"
@@ -31,6 +32,8 @@ void PairRanking::record(const vk::raii::CommandBuffer& commands, vk::Descriptor
                          const PairData& data) const {
   const std::array sets = {frame_set, data.set().handle()};
   commands.fillBuffer(histogram_.handle(), 0, kBins * sizeof(std::uint32_t), 0);
+  commands.fillBuffer(data.countsBuffer(), offsetof(interop::PairsCounts, greatest_key),
+                      sizeof(std::uint32_t), 0);
   barrier(commands, gpu::copyTarget(), gpu::computed());
   for (const Round& round : rounds_) {
     round.count.bind(commands, sets);

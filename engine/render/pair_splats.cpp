@@ -22,14 +22,13 @@ std::vector<vk::DescriptorSetLayout> splatSets(const PassSetup& setup, const Pai
   return {setup.frame_layout, data.set().layout()};
 }
 
-gpu::PipelineInfo resolveInfo(const PassSetup& setup, const PairData& data, bool lit) {
+gpu::PipelineInfo resolveInfo(const PassSetup& setup, const PairData& data) {
   return {.vertex = shaderCode("pairs_tiles_vert"),
           .fragment = shaderCode("pairs_resolve_frag"),
           .sets = splatSets(setup, data),
           .view_mask = setup.view_mask,
           .depth_test = true,
-          .depth_write = true,
-          .constants = {lit ? VK_TRUE : VK_FALSE}};
+          .depth_write = true};
 }
 
 }  // namespace
@@ -57,8 +56,7 @@ PairSplats::PairSplats(const PassSetup& setup, const PairData& data)
              gpu::MemoryUse::kDevice),
       small_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_FALSE}),
       large_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_TRUE}),
-      resolve_{gpu::Pipeline(setup.core, resolveInfo(setup, data, false)),
-               gpu::Pipeline(setup.core, resolveInfo(setup, data, true))} {}
+      resolve_(setup.core, resolveInfo(setup, data), 0, Picked::Kind::pair) {}
 
 void PairSplats::update(PairData& data, vk::Extent2D extent) {
   const std::size_t views = data.data().views;
@@ -92,7 +90,7 @@ void PairSplats::recordSplats(const vk::raii::CommandBuffer& commands, vk::Descr
 }
 
 void PairSplats::record(const FrameContext& context, const PairData& data) const {
-  context.draw("pairs", resolve_[context.lit ? 1 : 0], data.set().handle(), 4,
+  context.draw("pairs", resolve_[context.look], data.set().handle(), 4,
                static_cast<int>(tile_count_));
 }
 

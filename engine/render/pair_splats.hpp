@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-
 #include "engine/gpu/compute_pipeline.hpp"
 #include "engine/render/frame_context.hpp"
 #include "engine/render/pair_data.hpp"
@@ -35,7 +33,7 @@ class PairSplats {
   std::size_t visibility_bytes_ = 0;  // that this frame uses
   std::uint32_t tile_count_ = 0;      // of a view
   gpu::ComputePipeline small_pass_, large_pass_;
-  std::array<gpu::Pipeline, 2> resolve_;  // flat, lit
+  Looks resolve_;
 };
 
 }  // namespace slamscope::engine

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/pairs.hpp"
 
+#include <bit>
+
 namespace slamscope::engine {
 
 PairPass::PairPass(const PassSetup& setup) : setup_(setup), data_(setup.core) {}
 
 bool PairPass::nothing() const {
   return !data_.problem().empty() || data_.pairCount() == 0;
+}
+
+bool PairPass::byGrowth() const {
+  return data_.choice().most > 0 && data_.choice().most_by != MostBy::area;
 }
 
 void PairPass::update(const PairGlyphs& glyphs, const ViewSet& views) {
@@ -19,6 +25,10 @@ void PairPass::update(const PairGlyphs& glyphs, const ViewSet& views) {
                             static_cast<std::uint32_t>(size[1]));
   splatted_ = (way == PairWay::splats || (way == PairWay::chosen && many)) &&
               PairSplats::possible(setup_.core, data_, extent);
+  if (byGrowth()) {
+    if (!growth_) growth_.emplace(setup_, data_);
+    growth_->update(data_);
+  }
   ranked_ = data_.choice().most > 0 && data_.changed();
   if (ranked_ && !ranking_) ranking_.emplace(setup_, data_);
   if (splatted_) {
@@ -34,6 +44,7 @@ void PairPass::recordChoice(const vk::raii::CommandBuffer& commands,
                             vk::DescriptorSet frame_set) const {
   if (nothing()) return;
   data_.recordReset(commands);
+  if (byGrowth() && growth_->pending()) growth_->record(commands, frame_set, data_);
   if (ranked_) ranking_->record(commands, frame_set, data_);
   if (splatted_) {
     splats_->recordSplats(commands, frame_set, data_);
@@ -63,6 +74,7 @@ FrameStats::Pairs PairPass::stats() const {
           .chosen = counts.chosen,
           .drawn = counts.drawn,
           .not_finite = counts.not_finite,
+          .greatest_growth = byGrowth() ? std::bit_cast<float>(counts.greatest_key) : 0.0F,
           .uploaded_bytes = data_.uploadedBytes(),
           .splatted = splatted_,
           .problem = {}};

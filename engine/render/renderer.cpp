@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/renderer.hpp"
 
+#include <tuple>
+
 namespace slamscope::engine {
 
 Renderer::Renderer(const gpu::Core& core, int views)
@@ -49,19 +51,15 @@ int Renderer::update(const ViewSet& views, const Scene& scene) {
   return not_drawn;
 }
 
-void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
-                      FrameStats& stats) {
-  const bool background_stands = background_.recordCopies(commands, target.colour);
-  barrier(commands, target.depth, gpu::unused(), gpu::depthTested());
-  letter_texture_->recordUpload(commands);
-  if (some_pairs_) pairs_->recordChoice(commands, frame_set_.handle());
-
+void Renderer::begin(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
+                     const vk::Rect2D& area, vk::AttachmentLoadOp load,
+                     const vk::ClearColorValue& clear) const {
   const vk::RenderingAttachmentInfo colour = {
       .imageView = target.colour.view(),
       .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
-      .loadOp = background_stands ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
+      .loadOp = load,
       .storeOp = vk::AttachmentStoreOp::eStore,
-      .clearValue = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 1.0F})};
+      .clearValue = clear};
   const vk::RenderingAttachmentInfo depth = {
       .imageView = target.depth.view(),
       .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
@@ -69,7 +67,6 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
       .storeOp = vk::AttachmentStoreOp::eDontCare,
       .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}};  // reversed: infinitely far
   const vk::Extent2D extent = target.colour.extent();
-  const vk::Rect2D area = {.extent = extent};
   commands.beginRendering({.renderArea = area,
                            .layerCount = 1,
                            .viewMask = setup_.view_mask,
@@ -83,8 +80,20 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
                                     .height = static_cast<float>(extent.height) + 2.0F * kBorderPx,
                                     .maxDepth = 1.0F});
   commands.setScissor(0, area);
+}
 
-  const FrameContext context = {commands, frame_set_.handle(), lit_, stats};
+void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
+                      FrameStats& stats) {
+  const bool background_stands = background_.recordCopies(commands, target.colour);
+  barrier(commands, target.depth, gpu::unused(), gpu::depthTested());
+  letter_texture_->recordUpload(commands);
+  if (some_pairs_) pairs_->recordChoice(commands, frame_set_.handle());
+
+  begin(commands, target, {.extent = target.colour.extent()},
+        background_stands ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
+        std::array{0.0F, 0.0F, 0.0F, 1.0F});
+  const FrameContext context = {commands, frame_set_.handle(), lit_ ? Look::lit : Look::flat,
+                                stats};
   background_.record(context);
   lines_.record(context);
   arrows_.record(context);
@@ -97,6 +106,47 @@ void Renderer::record(const vk::raii::CommandBuffer& commands, const RenderTarge
   texts_.record(context);
   commands.endRendering();
   if (some_pairs_) pairs_->recordReadback(commands);
+}
+
+void Renderer::recordNames(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
+                           const vk::Rect2D& area) const {
+  barrier(commands, target.colour, gpu::unused(), gpu::drawnInto());
+  barrier(commands, target.depth, gpu::unused(), gpu::depthTested());
+  begin(commands, target, area, vk::AttachmentLoadOp::eClear, std::array{0.0F, 0.0F, 0.0F, 0.0F});
+  FrameStats stats;  // of no frame
+  const FrameContext context = {commands, frame_set_.handle(), Look::named, stats};
+  lines_.record(context);
+  arrows_.record(context);
+  cones_.recordInside(context);
+  if (some_pairs_) pairs_->record(context);
+  ellipsoids_.record(context);
+  cones_.recordEdges(context);
+  commands.endRendering();
+}
+
+std::optional<Picked> Renderer::named(std::uint32_t texel) const {
+  const std::uint32_t name = texel >> 29U;  // as in common/named.glsl
+  const std::uint32_t number = texel & 0x1FFFFFFFU;
+  if (name == 0) return std::nullopt;
+  Picked picked{.kind = static_cast<Picked::Kind>(name - 1)};
+  switch (picked.kind) {
+    case Picked::Kind::line:
+      picked.tag = lines_.tags()[number];
+      break;
+    case Picked::Kind::arrow:
+      picked.tag = arrows_.tags()[number];
+      break;
+    case Picked::Kind::cone:
+      picked.tag = cones_.tags()[number];
+      break;
+    case Picked::Kind::ellipsoid:
+      picked.tag = ellipsoids_.tags()[number];
+      break;
+    case Picked::Kind::pair:
+      std::tie(picked.i, picked.j) = pairs_->data().pointsOf(number);
+      break;
+  }
+  return picked;
 }
 
 FrameStats::Pairs Renderer::pairStats() const {

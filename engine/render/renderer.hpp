@@ -34,10 +34,20 @@ class Renderer {
   /// layouts of gpu::drawnInto() and gpu::depthTested().
   void record(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
               FrameStats& stats);
+  /// Draws once more what was drawn last, as names (common/named.glsl) and no larger than
+  /// `area`; the target's images are left as by record().
+  void recordNames(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
+                   const vk::Rect2D& area) const;
+  /// What a texel of that stands for; nothing where nothing is.
+  [[nodiscard]] std::optional<Picked> named(std::uint32_t texel) const;
   /// Of the frame last waited for.
   [[nodiscard]] FrameStats::Pairs pairStats() const;
 
  private:
+  void begin(const vk::raii::CommandBuffer& commands, const RenderTarget& target,
+             const vk::Rect2D& area, vk::AttachmentLoadOp load,
+             const vk::ClearColorValue& clear) const;
+
   gpu::Buffer frame_buffer_;
   gpu::DescriptorSet frame_set_;
   PassSetup setup_;

@@ -19,6 +19,7 @@ namespace {
 #include "cones_vert.h"
 #include "ellipsoids_frag.h"
 #include "ellipsoids_vert.h"
+#include "group_extremes_comp.h"
 #include "interop_echo_comp.h"
 #include "lens_frag.h"
 #include "lens_vert.h"
@@ -27,6 +28,7 @@ namespace {
 #include "pairs_list_comp.h"
 #include "pairs_place_comp.h"
 #include "pairs_rank_comp.h"
+#include "pairs_remember_comp.h"
 #include "pairs_resolve_frag.h"
 #include "pairs_splat_comp.h"
 #include "pairs_tiles_vert.h"
@@ -44,6 +46,7 @@ const std::array kShaders = {ShaderCode{"arrows_frag", arrows_frag},
                              ShaderCode{"cones_vert", cones_vert},
                              ShaderCode{"ellipsoids_frag", ellipsoids_frag},
                              ShaderCode{"ellipsoids_vert", ellipsoids_vert},
+                             ShaderCode{"group_extremes_comp", group_extremes_comp},
                              ShaderCode{"interop_echo_comp", interop_echo_comp},
                              ShaderCode{"lens_frag", lens_frag},
                              ShaderCode{"lens_vert", lens_vert},
@@ -52,6 +55,7 @@ const std::array kShaders = {ShaderCode{"arrows_frag", arrows_frag},
                              ShaderCode{"pairs_list_comp", pairs_list_comp},
                              ShaderCode{"pairs_place_comp", pairs_place_comp},
                              ShaderCode{"pairs_rank_comp", pairs_rank_comp},
+                             ShaderCode{"pairs_remember_comp", pairs_remember_comp},
                              ShaderCode{"pairs_resolve_frag", pairs_resolve_frag},
                              ShaderCode{"pairs_splat_comp", pairs_splat_comp},
                              ShaderCode{"pairs_tiles_vert", pairs_tiles_vert},

@@ -20,7 +20,8 @@ struct Rgba {
 struct Ellipsoid {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< m
-  Rgba colour;
+  Rgba colour = {};
+  std::uint64_t tag = 0;  ///< whatever it stands for: what Picked gives back
 };
 
 /// Upright cone standing on its tip: apex at `tip`, opening towards +z.
@@ -28,7 +29,8 @@ struct Cone {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m
   double height = 0.1;                            ///< m
   double radius = 0.03;                           ///< m, of the rim at tip + height·z
-  Rgba colour;
+  Rgba colour = {};
+  std::uint64_t tag = 0;  ///< as Ellipsoid
 };
 
 /// Flat arrow parallel to the floor, from `origin` along `heading`.
@@ -37,14 +39,16 @@ struct Arrow {
   double heading = 0.0;                              ///< rad, about +z from +x
   double length = 0.25;                              ///< m
   double width = 0.08;                               ///< m, of the head
-  Rgba colour;
+  Rgba colour = {};
+  std::uint64_t tag = 0;  ///< as Ellipsoid
 };
 
 /// Connected segments of constant width on screen.
 struct Polyline {
   std::vector<Eigen::Vector3d> points;  ///< m
   double width_px = 2.0;
-  Rgba colour;
+  Rgba colour = {};
+  std::uint64_t tag = 0;  ///< as Ellipsoid
 };
 
 /// Text at a point of the scene; drawn upright at constant size, not depth-tested.
@@ -53,7 +57,7 @@ struct Label {
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  ///< of the text's centre, right and down
   std::string text;                                     ///< UTF-8
   double height_px = 14.0;                              ///< font size
-  Rgba colour;
+  Rgba colour = {};
 };
 
 /// Text at a place of the picture. (0, 0) is the picture's upper left corner; lines end with '\n'.
@@ -61,14 +65,14 @@ struct ScreenText {
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< upper left corner of the text
   std::string text;                                       ///< UTF-8
   double height_px = 14.0;                                ///< font size
-  Rgba colour;
+  Rgba colour = {};
 };
 
 /// Filled rectangle at a place of the picture, under all text (panels, legend swatches).
 struct ScreenRect {
   Eigen::Vector2d min_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d max_px = Eigen::Vector2d::Zero();
-  Rgba colour;
+  Rgba colour = {};
 };
 
 struct PairGlyphs;  // engine/scene/pair_glyphs.hpp

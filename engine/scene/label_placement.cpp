@@ -47,14 +47,14 @@ std::vector<std::optional<Eigen::Vector2d>> placeLabels(std::span<const LabelReq
   std::vector<std::optional<Eigen::Vector2d>> placed;
   placed.reserve(labels.size());
   for (const LabelRequest& label : labels) {
-    const auto isFree = [&](const Eigen::Vector2d& offset) {
+    const auto is_free = [&](const Eigen::Vector2d& offset) {
       const PixelBox box = boxAt(label, offset);
       return inside(box, options.picture) &&
              std::none_of(taken.begin(), taken.end(),
                           [&box](const PixelBox& other) { return overlap(box, other); });
     };
     const auto offsets = candidates(label, options);
-    const auto chosen = std::find_if(offsets.begin(), offsets.end(), isFree);
+    const auto chosen = std::find_if(offsets.begin(), offsets.end(), is_free);
     if (chosen == offsets.end()) {
       placed.emplace_back();
       continue;

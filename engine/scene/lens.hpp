@@ -17,4 +17,9 @@ struct Lens {
   [[nodiscard]] bool plain() const { return k.isZero(0.0) && scale == Eigen::Vector3d::Ones(); }
 };
 
+/// Where in the drawn picture (OpenCV's convention) a pixel of the one seen through the lens comes
+/// from; of the three colours' places that of green.
+[[nodiscard]] Eigen::Vector2d drawnPixel(const Lens& lens, const Eigen::Vector2d& size_px,
+                                         const Eigen::Vector2d& shown);
+
 }  // namespace slamscope::engine

@@ -23,6 +23,13 @@ struct AxisLaw {
   double unit = 1.0;  ///< m
 };
 
+/// By what pairs come first.
+enum class MostBy : std::uint32_t {
+  area,         ///< √det of the pair's covariance, the greatest
+  growth,       ///< its ratio to what it was when these points were first drawn ranked so
+  last_growth,  ///< its ratio to what it was with the points that were drawn before
+};
+
 /// Which pairs are drawn: those that meet every condition.
 struct PairChoice {
   /// One number a point; a pair whose points have the same is not drawn. Empty: no condition.
@@ -31,8 +38,11 @@ struct PairChoice {
   std::vector<std::uint32_t> touching = {};
   /// m², √det of the pair's covariance; smaller ones are not drawn.
   double least_area = 0.0;
-  /// So many with the greatest areas (and those of the very same area); 0: all.
+  /// So many that come first by `most_by` (and those that are even with the last); 0: all.
   std::uint32_t most = 0;
+  MostBy most_by = MostBy::area;
+  /// Only pairs both of whose points are in the picture of one view.
+  bool in_view = false;
   /// By index, in any order of the two: what something else draws.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> left_out = {};
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/planar_points.hpp"
 
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace slamscope::engine {
 
 PlanarPoints::PlanarPoints(std::span<const Eigen::Vector2d> means, std::span<const double> packed,
-                           int first_row) {
+                           int first_row, std::span<const std::uint64_t> names)
+    : names_(names.begin(), names.end()) {
   const std::size_t n = means.size();
   const auto first = static_cast<std::size_t>(first_row);
   const std::size_t rows = first + 2 * n;
@@ -17,6 +19,12 @@ PlanarPoints::PlanarPoints(std::span<const Eigen::Vector2d> means, std::span<con
                                 std::to_string(rows * (rows + 1) / 2) + " numbers, not " +
                                 std::to_string(packed.size()));
   }
+  if (!names.empty() && names.size() != n) {
+    throw std::invalid_argument(std::to_string(n) + " points need a name each, not " +
+                                std::to_string(names.size()));
+  }
+  names_.resize(n);
+  if (names.empty()) std::iota(names_.begin(), names_.end(), std::uint64_t{0});
   if (n == 0) return;
   const auto row = [packed](std::size_t r) { return packed.data() + r * (r + 1) / 2; };
   origin_ = means.front();

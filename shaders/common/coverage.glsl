@@ -33,6 +33,12 @@ ConicPoint evaluate(Conic c, vec2 x) {
 // Distance to the outline in pixels to first order, positive inside.
 float edgeDistance(ConicPoint at) { return at.f / max(2.0 * length(at.gradient), 1e-30); }
 
+// About the shorter semi-axis of an ellipse around the reference, px; of what is no ellipse large.
+float thickness(Conic c) {
+  const float sum = -(c.q.x + c.q.z);
+  return sum > 1e-12 ? inversesqrt(sum) : 1e6;
+}
+
 // True where all of the pixel is inside: where its four corners are, as the inside is convex.
 bool coversPixel(Conic c, ConicPoint at) {
   const vec2 g = at.gradient;

@@ -21,9 +21,10 @@ void add(Tally tally) {
 }
 
 // least_key: counts.least_key, read once where all lanes are at work.
-bool chosenByArea(vec3 P_d, uint least_key) {
-  const float area = areaOf(P_d);
-  return !(area < pairs.least_area) && (pairs.most == 0u || floatBitsToUint(area) >= least_key);
+bool isChosen(Pair pair, uint least_key) {
+  const float area = areaOf(pair.P_d);
+  return pair.wanted && !(area < pairs.least_area) &&
+         (pairs.most == 0u || keyOf(pair, area) >= least_key);
 }
 
 // Pixels that it may touch, from low to high; none where low > high.
@@ -50,7 +51,7 @@ Seen seenBy(uint view, Solid s) {
 
 bool wanted(uint number, uint least_key, inout Tally tally) {
   const Pair pair = pairAt(number);
-  if (!pair.wanted || !chosenByArea(pair.P_d, least_key)) return false;
+  if (!isChosen(pair, least_key)) return false;
   ++tally.chosen;
   const Solid solid = solidOf(pair);
   if (!solid.finite) {

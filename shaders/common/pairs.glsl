@@ -2,16 +2,20 @@
 // From the points and their covariance to the ellipsoid of a pair. Pairs are numbered row by row of
 // the strictly lower triangle: that of the points at places i < j of the table is j (j − 1) / 2 + i.
 #include "../interop/pairs.h"
+#include "area.glsl"
 
 layout(set = 1, binding = 0, scalar) uniform Pairs { PairsData pairs; };
 layout(set = 1, binding = 1) uniform samplerBuffer points;  // in an order of their own: mean,
 // group, touching; xx, xy, yy of P, index
 layout(set = 1, binding = 2) uniform samplerBuffer blocks;
 layout(set = 1, binding = 3) uniform usamplerBuffer left_out;  // bit a pair
+layout(set = 1, binding = 22) uniform usamplerBuffer in_view;  // bit a point, by index
+layout(set = 1, binding = 23) uniform samplerBuffer then;  // as pairs_remember.comp, by block
 
 const uint kDifferentGroups = 1u;  // PairsData::conditions
 const uint kTouching = 2u;
 const uint kLeftOut = 4u;
+const uint kInView = 8u;
 
 uvec2 pairOf(uint number) {
   uint j = uint(0.5 + sqrt(0.25 + 2.0 * float(number)));  // a float's rounding may miss by one
@@ -20,10 +24,15 @@ uvec2 pairOf(uint number) {
   return uvec2(number - j * (j - 1u) / 2u, j);
 }
 
+bool inView(uint index) {
+  return (texelFetch(in_view, int(index >> 5)).x >> (index & 31u) & 1u) != 0u;
+}
+
 struct Pair {
   vec2 middle;  // m, relative to the origin
   vec3 P_d;     // xx, xy, yy, m²
   bool wanted;  // by all conditions but that of the area
+  uint block;   // that of the two points
 };
 
 // Equation (13) of the paper: P_d = P_ii + P_jj − P_ij − P_ijᵀ.
@@ -36,14 +45,22 @@ Pair pairAt(uint number) {
   // Which of the two is transposed makes no difference.
   const uint row = uint(max(P_ii.w, P_jj.w));
   const uint column = uint(min(P_ii.w, P_jj.w));
-  const vec4 P_ji = texelFetch(blocks, int(row * (row + 1u) / 2u + column));
+  const uint block = row * (row + 1u) / 2u + column;
+  const vec4 P_ji = texelFetch(blocks, int(block));
   const vec3 twice = vec3(2.0 * P_ji.x, P_ji.y + P_ji.z, 2.0 * P_ji.w);
   bool wanted = (a.z != b.z || (pairs.conditions & kDifferentGroups) == 0u) &&
                 (a.w + b.w > 0.0 || (pairs.conditions & kTouching) == 0u);
   const bool some_left_out = (pairs.conditions & kLeftOut) != 0u;
   const uint bits = texelFetch(left_out, some_left_out ? int(number >> 5) : 0).x;
   wanted = wanted && !(some_left_out && (bits >> (number & 31u) & 1u) != 0u);
-  return Pair(0.5 * (a.xy + b.xy), (P_ii.xyz + P_jj.xyz) - twice, wanted);
+  if ((pairs.conditions & kInView) != 0u) wanted = wanted && inView(row) && inView(column);
+  return Pair(0.5 * (a.xy + b.xy), (P_ii.xyz + P_jj.xyz) - twice, wanted, block);
+}
+
+// What the most are chosen by, as the bits of a float: growth is a ratio to the area that was.
+uint keyOf(Pair pair, float area) {
+  if (pairs.most_by == 0u) return floatBitsToUint(area);
+  return floatBitsToUint(area / max(texelFetch(then, int(pair.block)).x, 1e-37));
 }
 
 // Eigenvalues (m², major first) and the major direction of a symmetric 2 × 2 matrix. Closed form,
@@ -70,13 +87,6 @@ Principal principalOf(vec3 P) {
   const vec2 direction = c >= s ? vec2(c, exact) : vec2(exact, s);
   return Principal(trace * max(vec2(major, minor), 0.0),
                    vec2(direction.x, h.y < 0.0 ? -direction.y : direction.y));
-}
-
-// √det, m².
-float areaOf(vec3 P) {
-  const float trace = abs(P.x) + abs(P.z);
-  const vec3 p = P / max(trace, 1e-37);
-  return trace * sqrt(max(p.x * p.z - p.y * p.y, 0.0));
 }
 
 vec2 semiAxes(vec2 eigenvalues) {

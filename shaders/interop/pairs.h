@@ -20,6 +20,7 @@ struct PairsData {
   float least_area;  // m²
   uint most;
   uint run;  // pairs a lane
+  uint most_by;  // MostBy
 };
 
 // What the device counts, and the arguments of the commands that follow.
@@ -31,6 +32,7 @@ struct PairsCounts {
   uint vertices, instances, first_vertex, first_instance;  // of the draw
   uint least_key;  // area of the smallest pair within the most, as the bits of a float
   uint rank;       // how many of the keys with its upper bits are still wanted
+  uint greatest_key;  // of all pairs that were ranked
 };
 
 SLAMSCOPE_INTEROP_END

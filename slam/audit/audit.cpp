@@ -96,6 +96,7 @@ void Audit::State::hint(const std::optional<std::string_view>& allow) {
 
 void Audit::State::note(Law law, const Outcome& outcome, const Snapshot& snapshot) {
   tallies[static_cast<std::size_t>(law)].take(outcome, snapshot.sequence, seconds(snapshot.time));
+  checked = checked || outcome.checked();
   if (!outcome.violated()) return;
   newest.broken.push_back(law);
   for (const Blame& b : outcome.blame) {
@@ -115,21 +116,15 @@ void Audit::State::note(Law law, const Outcome& outcome, const Snapshot& snapsho
 void Audit::State::noteInnovation(const InnovationEstimate& estimate, const Snapshot& snapshot) {
   const bool stood_out = nis.firstBroken().has_value();
   nis.take(estimate, {snapshot.sequence, seconds(snapshot.time)});
+  checked = checked || estimate.dof > 0;
   newest.nis = estimate.nis;
   newest.dof = estimate.dof;
   if (nis.firstBroken() && !stood_out) newest.broken.push_back(Law::nis);
 }
 
-void Audit::State::take(const SnapshotPtr& snapshot) {
-  const Snapshot& s = *snapshot;
-  if (s.event == Event::predict || s.event == Event::update || s.event == Event::initialise) {
-    every_event = true;
-  }
-  if (repeatsLast(s)) return;
+void Audit::State::count(const Snapshot& s) {
   if (records++ == 0) first_time_s = seconds(s.time);
   last_time_s = seconds(s.time);
-  newest = {};
-  newest.judged = records;
   diagonal_only = diagonal_only || s.diagonal_only;
   observed_given = observed_given || s.observed_given;
   extra = extra || !s.extra.empty();
@@ -139,30 +134,49 @@ void Audit::State::take(const SnapshotPtr& snapshot) {
   const bool observing_step = s.event == Event::step && !s.observed.empty();
   if (observing_step || s.event == Event::update) ++updates;
   covariance_precision.take(s.covariance.packed());
-  if (options.means_known) {
-    mean_precision.take({s.pose.data(), 3});
-    if (!s.features.empty()) {
-      mean_precision.take({s.features.front().data(), 2 * s.features.size()});
-    }
+  if (!options.means_known) return;
+  mean_precision.take({s.pose.data(), 3});
+  if (!s.features.empty()) mean_precision.take({s.features.front().data(), 2 * s.features.size()});
+}
+
+void Audit::State::take(const SnapshotPtr& snapshot) {
+  const Snapshot& s = *snapshot;
+  if (s.event == Event::predict || s.event == Event::update || s.event == Event::initialise) {
+    every_event = true;
   }
-  const bool was_finite = last_finite;
+  if (repeatsLast(s)) return;
+  count(s);
+  newest = {};
+  newest.judged = records;
+  const std::optional<Transition> transition = lookAt(snapshot);
   last_finite = judgeRecord(s);
-  if (last && was_finite && last_finite) judgeTransition(snapshot);
+  if (transition && last_finite) judgeTransition(*transition);
   if (options.means_known) points.take(last, s);
   last = snapshot;
 }
 
+std::optional<Transition> Audit::State::lookAt(const SnapshotPtr& snapshot) {
+  const Snapshot& s = *snapshot;
+  swept = false;
+  lawful.skip();
+  if (!last || !last_finite || s.event == Event::initial || s.event == Event::remove) return {};
+  Transition t = lineUp(last, snapshot, exactness());
+  swept = s.event == Event::update && t.shared == s.featureCount() && s.extra.empty() &&
+          comparable() && !t.rounded;
+  if (swept) {
+    sweep.take(t);
+    lawful.take(t, sweep);
+  }
+  return t;
+}
+
 bool Audit::State::judgeRecord(const Snapshot& s) {
-  const Outcome finite = checkFinite(s, options.means_known);
+  const Outcome finite = checkFinite(s, options.means_known, swept && sweep.finite());
   note(Law::finite, finite, s);
   if (finite.violated()) return false;
   note(Law::symmetric, checkSymmetric(s, covariance_precision), s);
-  std::vector<int> observed;
-  for (const FeatureId id : s.observed) {
-    if (const auto index = s.indexOf(id)) observed.push_back(*index);
-  }
   const double noise = recordNoise(s);
-  note(Law::positive, positive.check(s, observed, noise), s);
+  judgePositive(s, noise);
   if (allows(Allow::absolute_sensor)) {
     note(Law::heading_floor, declaredAway(Allow::absolute_sensor), s);
   } else if (allows(Allow::robocentric)) {
@@ -170,18 +184,34 @@ bool Audit::State::judgeRecord(const Snapshot& s) {
   } else {
     note(Law::heading_floor, heading_floor.check(s, noise), s);
   }
-  if (!s.observations.empty()) {
-    whiteness.take(s);
-    InnovationEstimate given;
-    for (const ObservationRecord& o : s.observations) {
-      const double q = o.innovation.dot(o.S.inverse() * o.innovation);
-      given.nis += q;
-      given.dof += 2;
-      given.features.push_back({o.id, q, 2});
-    }
-    if (!s.observations.front().S.isZero(0.0)) nis_given.take(given, {s.sequence, seconds(s.time)});
-  }
+  if (!s.observations.empty()) judgeInnovationsGiven(s);
   return true;
+}
+
+void Audit::State::judgePositive(const Snapshot& s, double noise) {
+  if (lawful.recognised()) {
+    note(Law::positive, positive.confirm(s, noise), s);
+    return;
+  }
+  std::vector<int> observed;
+  for (const FeatureId id : s.observed) {
+    if (const auto index = s.indexOf(id)) observed.push_back(*index);
+  }
+  const auto looking =
+      s.event == Event::predict ? PositiveLaw::Looking::seldom : PositiveLaw::Looking::often;
+  note(Law::positive, positive.check(s, observed, noise, looking), s);
+}
+
+void Audit::State::judgeInnovationsGiven(const Snapshot& s) {
+  whiteness.take(s);
+  InnovationEstimate given;
+  for (const ObservationRecord& o : s.observations) {
+    const double q = o.innovation.dot(o.S.inverse() * o.innovation);
+    given.nis += q;
+    given.dof += 2;
+    given.features.push_back({o.id, q, 2});
+  }
+  if (!s.observations.front().S.isZero(0.0)) nis_given.take(given, {s.sequence, seconds(s.time)});
 }
 
 Audit::Audit(AuditOptions options, RunHeader header)

@@ -82,6 +82,10 @@ struct LawReport {
 };
 
 enum class Verdict { ok, violation, inconclusive };
+/// `ok` is said from so many checked corrections on; of less it is `inconclusive`. About as many
+/// updates by one feature each are what the statistical laws need to see an R that is ten times too
+/// large; exact laws need one.
+inline constexpr std::uint64_t kFewestCorrections = 10;
 /// `ok`, `violation`, `inconclusive`.
 [[nodiscard]] std::string_view verdictName(Verdict verdict);
 
@@ -92,6 +96,9 @@ struct AuditReport {
   std::string precision;         ///< of the numbers in the log: "double", "float32", "6 digits"
   std::uint64_t records = 0;
   std::uint64_t updates = 0;  ///< transitions in which something was observed, as far as known
+  /// Updates, or whole time steps where updates are not logged, in which a law that compares with
+  /// the record before could be checked.
+  std::uint64_t corrections_checked = 0;
   double first_time_s = 0.0;
   double last_time_s = 0.0;
   double alpha = 1e-3;

@@ -15,10 +15,12 @@
 #include "slam/audit/law_support.hpp"
 #include "slam/audit/law_tally.hpp"
 #include "slam/audit/law_whiteness.hpp"
+#include "slam/audit/lawful_update.hpp"
 #include "slam/audit/linearisation.hpp"
 #include "slam/audit/log_precision.hpp"
 #include "slam/audit/signatures.hpp"
 #include "slam/audit/transition.hpp"
+#include "slam/audit/update_sweep.hpp"
 
 namespace slamscope::slam {
 
@@ -45,6 +47,7 @@ struct Audit::State {
   bool last_finite = true;
   std::uint64_t records = 0;
   std::uint64_t updates = 0;
+  std::uint64_t corrections_checked = 0;
   double first_time_s = 0.0;
   double last_time_s = 0.0;
   bool every_event = false;  ///< L2: some record is a prediction, an update or an initialisation
@@ -65,16 +68,32 @@ struct Audit::State {
 
   RecordFindings newest;
 
+  // Of the record that is judged now:
+  bool checked = false;  ///< some law could be
+  bool swept = false;    ///< it is an update of the whole state, and `sweep` has gone over it
+  UpdateSweep sweep;
+  LawfulUpdate lawful;
+
   void take(const SnapshotPtr& snapshot);
+  /// The transition to this record, if it is one; looks at it where it is an update.
+  [[nodiscard]] std::optional<Transition> lookAt(const SnapshotPtr& snapshot);
+  void count(const Snapshot& snapshot);
   /// False where the record is not finite.
   bool judgeRecord(const Snapshot& snapshot);
-  void judgeTransition(const SnapshotPtr& snapshot);
+  void judgePositive(const Snapshot& snapshot, double noise);
+  void judgeInnovationsGiven(const Snapshot& snapshot);
+  void judgeTransition(const Transition& t);
   void judgePrediction(const Transition& t);
   void judgeUpdate(const Transition& t);
+  void judgeLawfulUpdate(const Transition& t);
+  void judgeSensorNoise(const Transition& t, const UpdateAnatomy& anatomy,
+                        const InnovationEstimate& estimate);
   void judgeInitialisation(const Transition& t);
   void judgeStep(const Transition& t);
   void judgeShrink(const Transition& t, bool map_only, bool everything);
 
+  /// Whether mean and covariance are in the log, both and whole.
+  [[nodiscard]] bool comparable() const { return !diagonal_only && options.means_known; }
   [[nodiscard]] bool repeatsLast(const Snapshot& snapshot) const;
   [[nodiscard]] bool allows(Allow allow) const { return options.allow.contains(allow); }
   [[nodiscard]] Exactness exactness() const;

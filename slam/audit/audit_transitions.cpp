@@ -29,23 +29,27 @@ bool initialisedAgain(const Transition& t, const Outcome& outcome) {
 
 }  // namespace
 
-void Audit::State::judgeTransition(const SnapshotPtr& snapshot) {
-  const Snapshot& s = *snapshot;
-  if (s.event == Event::initial || s.event == Event::remove) return;
-  const Transition t = lineUp(last, snapshot, exactness());
+void Audit::State::judgeTransition(const Transition& t) {
+  const Snapshot& s = *t.after;
+  checked = false;
   const bool same_map = t.shared == s.featureCount();
-  if (diagonal_only || !options.means_known) {
+  if (s.event == Event::predict && same_map && comparable()) {
+    judgePrediction(t);
+    return;
+  }
+  if (s.event == Event::initialise && comparable()) {
+    judgeInitialisation(t);
+    return;
+  }
+  if (!comparable()) {
     const bool moves = s.event == Event::predict || s.event == Event::initialise;
     if (!moves) judgeShrink(t, true, true);
-  } else if (s.event == Event::predict && same_map) {
-    judgePrediction(t);
   } else if (s.event == Event::update && same_map) {
     judgeUpdate(t);
-  } else if (s.event == Event::initialise) {
-    judgeInitialisation(t);
   } else {
     judgeStep(t);
   }
+  if (checked) ++corrections_checked;
 }
 
 void Audit::State::judgePrediction(const Transition& t) {
@@ -106,6 +110,10 @@ void Audit::State::judgeUpdate(const Transition& t) {
     noteInnovation(estimateStepInnovation(t), s);
     return;
   }
+  if (lawful.recognised()) {
+    judgeLawfulUpdate(t);
+    return;
+  }
   UpdateAnatomy anatomy = checkSupport(t, points);
   const InnovationEstimate estimate = estimateInnovation(t, anatomy);
   tellUsedTwice(estimate, anatomy);
@@ -119,6 +127,30 @@ void Audit::State::judgeUpdate(const Transition& t) {
   judgeShrink(t, false, !anatomy.fit.whole);
   note(Law::range, checkRange(t, anatomy), s);
   noteInnovation(estimate, s);
+  judgeSensorNoise(t, anatomy, estimate);
+}
+
+void Audit::State::judgeLawfulUpdate(const Transition& t) {
+  const Snapshot& s = *t.after;
+  UpdateAnatomy anatomy;
+  anatomy.observed = t.observed;
+  anatomy.deltas = lawful.deltas();
+  anatomy.fit.whole = true;
+  anatomy.support = Outcome::of(lawful.support().residual, lawful.support().tolerance);
+  note(Law::support, anatomy.support, s);
+  note(Law::rank, checkRank(t, anatomy), s);
+  note(Law::shrink,
+       allows(Allow::inflation) ? declaredAway(Allow::inflation)
+                                : Outcome::of(0.0, shrinkTolerance(t)),
+       s);
+  note(Law::range, Outcome::of(lawful.range().residual, lawful.range().tolerance), s);
+  noteInnovation(lawful.innovation(), s);
+  judgeSensorNoise(t, anatomy, lawful.innovation());
+}
+
+void Audit::State::judgeSensorNoise(const Transition& t, const UpdateAnatomy& anatomy,
+                                    const InnovationEstimate& estimate) {
+  const Snapshot& s = *t.after;
   const bool given = !s.observations.empty() && !s.observations.front().R.isZero(0.0);
   if (header.R || given) {
     note(Law::sensor_noise, checkSensorNoise(t, anatomy, estimate, header), s);

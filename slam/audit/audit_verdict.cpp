@@ -89,6 +89,7 @@ AuditReport Audit::State::report() const {
   AuditReport report;
   report.records = records;
   report.updates = updates;
+  report.corrections_checked = corrections_checked;
   report.first_time_s = first_time_s;
   report.last_time_s = last_time_s;
   report.alpha = options.alpha;
@@ -109,13 +110,13 @@ AuditReport Audit::State::report() const {
       at(Law::nees).take(checkNees(*last, options.alpha / 4.0), last->sequence, last_time_s);
     }
   }
-  const auto takeNis = [&](Law law, const NisLaw& from) {
+  const auto take_nis = [&](Law law, const NisLaw& from) {
     if (from.count() == 0) return;
     const auto first = from.firstBroken();
     at(law).take(from.outcome(), first ? first->record : 0, first ? first->time_s : 0.0);
   };
-  takeNis(Law::nis, nis);
-  takeNis(Law::nis_given, nis_given);
+  take_nis(Law::nis, nis);
+  take_nis(Law::nis_given, nis_given);
   if (whiteness.count() > 0) {
     at(Law::whiteness)
         .take(whiteness.outcome(), whiteness.firstRecord().value_or(0), whiteness.firstTime());
@@ -175,13 +176,9 @@ AuditReport Audit::State::report() const {
   if (!every_event) report.next_level = linesToL2();
   if (every_event && !innovations) report.next_level = linesToL3(header);
 
-  const bool judged = std::any_of(report.laws.begin(), report.laws.end(), [](const LawReport& l) {
-    return l.checked > 0 && l.law != Law::finite && l.law != Law::symmetric &&
-           l.law != Law::positive && l.law != Law::heading_floor && l.law != Law::nees;
-  });
-  report.verdict = !report.classes.empty() ? Verdict::violation
-                   : judged                ? Verdict::ok
-                                           : Verdict::inconclusive;
+  report.verdict = !report.classes.empty()                     ? Verdict::violation
+                   : corrections_checked >= kFewestCorrections ? Verdict::ok
+                                                               : Verdict::inconclusive;
   return report;
 }
 

@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace slamscope::slam {
 namespace {
@@ -15,17 +14,10 @@ struct PseudoInverse {
   double least = 0.0;    ///< least eigenvalue kept, or a bound below it
 };
 
-/// What an eigenvalue of D must exceed to be more than rounding.
-double leastResolved(const Eigen::MatrixXd& D, double largest, double noise, double mean_noise) {
-  const double size = std::sqrt(static_cast<double>(D.rows()));
-  return std::max({100.0 * noise * size, 1e-9 * largest, 100.0 * mean_noise * mean_noise});
-}
-
-/// By eigenvalues: whatever D is.
-PseudoInverse pseudoInverse(const Eigen::MatrixXd& D, double noise, double mean_noise) {
+PseudoInverse pseudoInverse(const Transition& t, const Eigen::MatrixXd& D) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(D);
   const Eigen::VectorXd& values = eigen.eigenvalues();
-  const double floor = leastResolved(D, values.cwiseAbs().maxCoeff(), noise, mean_noise);
+  const double floor = leastResolved(t, D.rows(), values.cwiseAbs().maxCoeff());
   PseudoInverse inverse;
   Eigen::Index first = 0;
   while (first < values.size() && !(values[first] > floor)) ++first;
@@ -36,41 +28,12 @@ PseudoInverse pseudoInverse(const Eigen::MatrixXd& D, double noise, double mean_
   return inverse;
 }
 
-/// A D known to lie in the span of the columns of U, for a fraction of the cost: with U = Q R,
-/// D⁺ = Q (Qᵀ D Q)⁻¹ Qᵀ. Nothing where U or D is near a smaller rank.
-std::optional<PseudoInverse> pseudoInverseWithin(const SpanBasis& U, const Eigen::MatrixXd& D,
-                                                 double noise, double mean_noise) {
-  const OrthonormalSpan span = orthonormal(U);
-  if (!span.all_resolved || span.Q.cols() != U.W.cols()) return std::nullopt;
-  const Eigen::MatrixXd inner = span.Q.transpose() * D * span.Q;
-  const Eigen::LLT<Eigen::MatrixXd> factor(inner);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  PseudoInverse inverse;
-  inverse.half = span.Q;
-  factor.matrixU().solveInPlace<Eigen::OnTheRight>(inverse.half);
-  inverse.least = 1.0 / inverse.half.squaredNorm();  // 1 / Σ 1/λ
-  if (!(inverse.least > leastResolved(D, inner.trace(), noise, mean_noise))) return std::nullopt;
-  return inverse;
-}
-
 Eigen::VectorXd pick(const Eigen::VectorXd& v, const std::vector<int>& states) {
   Eigen::VectorXd picked(static_cast<Eigen::Index>(states.size()));
   for (std::size_t k = 0; k < states.size(); ++k) {
     picked[static_cast<Eigen::Index>(k)] = v[states[k]];
   }
   return picked;
-}
-
-Eigen::MatrixXd rowsOf(const Eigen::MatrixXd& M, const std::vector<int>& rows) {
-  Eigen::MatrixXd picked(static_cast<Eigen::Index>(rows.size()), M.cols());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    picked.row(static_cast<Eigen::Index>(k)) = M.row(rows[k]);
-  }
-  return picked;
-}
-
-double scaledMeanNoise(const Transition& t) {
-  return 2.0 * t.mean_noise * t.scale.maxCoeff();
 }
 
 /// B_i P⁻ B_iᵀ from U_i = P⁻ B_iᵀ.
@@ -104,6 +67,17 @@ double headingCorrelation(const Transition& t, const FeatureInnovation& one, int
 
 }  // namespace
 
+double leastResolved(const Transition& t, Eigen::Index rows, double largest) {
+  const double size = std::sqrt(static_cast<double>(rows));
+  const double mean_noise = 2.0 * t.mean_noise * t.largest_scale;
+  return std::max({100.0 * t.noise * size, 1e-9 * largest, 100.0 * mean_noise * mean_noise});
+}
+
+double noiseError(const Transition& t, double least, const Eigen::Matrix2d& S,
+                  const Eigen::Matrix2d& R_map) {
+  return (1e-7 + 50.0 * t.noise / least) * S.trace() / std::max(std::abs(R_map.trace()), 1e-300);
+}
+
 InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& anatomy) {
   InnovationEstimate estimate;
   if (anatomy.observed.empty()) return estimate;
@@ -119,15 +93,7 @@ InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& 
   const std::vector<int> states = statesOf(blocks);
   if (states.empty()) return estimate;
   const Eigen::MatrixXd D = t.scaledBlock(states);
-  std::optional<PseudoInverse> within;
-  if (anatomy.fit.whole && anatomy.outside.empty()) {
-    SpanBasis own;
-    own.W = rowsOf(anatomy.basis.W, states);
-    own.noise = anatomy.basis.noise;
-    within = pseudoInverseWithin(own, D, t.noise, scaledMeanNoise(t));
-  }
-  const PseudoInverse inverse =
-      within ? std::move(*within) : pseudoInverse(D, t.noise, scaledMeanNoise(t));
+  const PseudoInverse inverse = pseudoInverse(t, D);
   const Eigen::VectorXd dx = pick(t.scale.cwiseProduct(t.meanChange()), states);
   const Eigen::VectorXd w = inverse.half.transpose() * dx;
   const Eigen::Index lawful =
@@ -155,8 +121,7 @@ InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& 
     one.nis = nu.dot(S_i.ldlt().solve(nu));
     one.dof = 2;
     one.R_map = S_i - projected(t, anatomy.basis.W, column, anatomy.observed[k], anatomy.deltas[k]);
-    one.R_error = (1e-7 + 50.0 * t.noise / inverse.least) * S_i.trace() /
-                  std::max(std::abs(one.R_map.trace()), 1e-300);
+    one.R_error = noiseError(t, inverse.least, S_i, one.R_map);
     if (anatomy.heading_besides) {
       const double correlation =
           headingCorrelation(t, one, anatomy.observed[k], anatomy.deltas[k],
@@ -186,14 +151,13 @@ InnovationEstimate estimateStepInnovation(const Transition& t) {
   }
   if (features.empty()) return estimate;
   const Eigen::VectorXd dx = t.scale.cwiseProduct(t.meanChange());
-  const double mean_noise = scaledMeanNoise(t);
   const std::vector<int> states = statesOf(features);
-  const PseudoInverse all = pseudoInverse(t.scaledBlock(states), t.noise, mean_noise);
+  const PseudoInverse all = pseudoInverse(t, t.scaledBlock(states));
   estimate.dof = static_cast<int>(all.half.cols());
   estimate.nis = (all.half.transpose() * pick(dx, states)).squaredNorm();
   for (const int i : features) {
     const std::vector<int> own = statesOf({i});
-    const PseudoInverse inverse = pseudoInverse(t.scaledBlock(own), t.noise, mean_noise);
+    const PseudoInverse inverse = pseudoInverse(t, t.scaledBlock(own));
     FeatureInnovation one;
     one.id = t.id(i);
     one.dof = static_cast<int>(inverse.half.cols());

@@ -36,6 +36,14 @@ struct InnovationEstimate {
 [[nodiscard]] InnovationEstimate estimateInnovation(const Transition& transition,
                                                     const UpdateAnatomy& anatomy);
 
+/// What an eigenvalue of D, of `rows` scaled states and with a largest one of `largest`, must
+/// exceed to be more than rounding.
+[[nodiscard]] double leastResolved(const Transition& transition, Eigen::Index rows, double largest);
+
+/// Relative error of A⁻¹ R A⁻ᵀ = S̃ − B P⁻ Bᵀ, where D has a least eigenvalue of `least`.
+[[nodiscard]] double noiseError(const Transition& transition, double least,
+                                const Eigen::Matrix2d& S, const Eigen::Matrix2d& R_map);
+
 /// Over a whole time step (L1) on the map: Δx_m is a sum of independent T w, so Δx_mᵀ D_m⁺ Δx_m is
 /// χ² with rank D_m; likewise of any rows: those of the observed features, or where `observed` is
 /// not in the log, of the features that P says were corrected most.

@@ -22,7 +22,7 @@ bool rowFinite(const Snapshot& snapshot, int row) {
 
 }  // namespace
 
-Outcome checkFinite(const Snapshot& snapshot, bool means_known) {
+Outcome checkFinite(const Snapshot& snapshot, bool means_known, bool covariance_finite) {
   bool pose = true;
   std::vector<FeatureId> bad;
   if (means_known) {
@@ -31,7 +31,7 @@ Outcome checkFinite(const Snapshot& snapshot, bool means_known) {
       if (!snapshot.features[k].allFinite()) bad.push_back(snapshot.ids[k]);
     }
   }
-  const bool covariance = allFinite(snapshot.covariance.packed());
+  const bool covariance = covariance_finite || allFinite(snapshot.covariance.packed());
   if (pose && bad.empty() && covariance) return Outcome::of(0.0, 0.0);
   Outcome outcome = Outcome::of(std::numeric_limits<double>::infinity(), 0.0);
   for (int i = 0; i < snapshot.featureCount() && bad.empty() && pose; ++i) {

@@ -54,10 +54,10 @@ Outcome checkJacobianGiven(const Transition& t, const LinearisationPoints& point
     double off = (o.H - lawful).cwiseAbs().maxCoeff() / size;
     const double tolerance = 1e-5 + (t.rounded ? 1e-3 : 0.0);
     if (off > tolerance && points.after_prediction) {
-      const auto then = points.after_prediction->features.find(o.id);
-      if (then != points.after_prediction->features.end()) {
+      const std::optional<Eigen::Vector2d> then = points.after_prediction->feature(o.id);
+      if (then) {
         const Eigen::MatrixXd frozen =
-            numeric(sensor, points.after_prediction->pose, then->second, row, o.H.cols());
+            numeric(sensor, points.after_prediction->pose, *then, row, o.H.cols());
         off = std::min(off, (o.H - frozen).cwiseAbs().maxCoeff() / size);
       }
     }

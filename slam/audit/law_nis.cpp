@@ -23,12 +23,14 @@ void NisLaw::take(const InnovationEstimate& estimate, const Sample& sample) {
   if (estimate.dof == 0) return;
   overall_.take(estimate.nis, estimate.dof);
   bool broken = overall_.evidence() > std::log(4.0 / alpha_);
+  double evidence = 0.0;
   for (const FeatureInnovation& f : estimate.features) {
     if (f.dof == 0) continue;
     const auto entry = by_feature_.try_emplace(f.id, ScaleTest({0.6, 1.5})).first;
     entry->second.take(f.nis, f.dof);
-    broken = broken || entry->second.evidence() > featureThreshold();
+    evidence = std::max(evidence, entry->second.evidence());
   }
+  broken = broken || evidence > featureThreshold();
   if (broken && !first_) first_ = FirstBroken{sample.record, sample.time_s};
 }
 

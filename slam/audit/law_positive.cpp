@@ -42,7 +42,7 @@ std::pair<double, Eigen::VectorXd> leastEigen(const Eigen::MatrixXd& M) {
 
 Outcome judged(const Snapshot& snapshot, const std::vector<int>& states, double noise) {
   const Eigen::MatrixXd block = scaledBlock(snapshot, states);
-  const double tolerance = 1e-8 + 4.0 * noise * std::sqrt(static_cast<double>(states.size()));
+  const double tolerance = positiveTolerance(noise, states.size());
   Eigen::MatrixXd shifted = block;
   shifted.diagonal().array() += tolerance;
   const Eigen::LLT<Eigen::MatrixXd> factor(shifted);
@@ -97,22 +97,30 @@ Outcome PositiveLaw::checkAll(const Snapshot& snapshot, double noise) {
   return judged(snapshot, states, noise);
 }
 
-Outcome PositiveLaw::check(const Snapshot& snapshot, const std::vector<int>& observed,
-                           double noise) {
+bool PositiveLaw::allIsDue(const Snapshot& snapshot, Looking looking) {
+  const double size = snapshot.covariance.size();
+  budget_ += (looking == Looking::often ? 4.0 : 0.25) * size * size;
+  if (budget_ < size * size * size / 3.0) return false;
+  budget_ = 0.0;
+  return true;
+}
+
+Outcome PositiveLaw::check(const Snapshot& snapshot, const std::vector<int>& observed, double noise,
+                           Looking looking) {
   Outcome outcome = diagonal(snapshot);
   if (outcome.violated() || snapshot.diagonal_only) return outcome;
-  const double size = snapshot.covariance.size();
-  budget_ += 4.0 * size * size;
-  if (budget_ >= size * size * size / 3.0) {
-    budget_ = 0.0;
-    return checkAll(snapshot, noise);
-  }
+  if (allIsDue(snapshot, looking)) return checkAll(snapshot, noise);
   std::vector<int> states{0, 1, 2};
   for (const int i : observed) {
     states.push_back(Snapshot::row(i));
     states.push_back(Snapshot::row(i) + 1);
   }
   return judged(snapshot, states, noise);
+}
+
+Outcome PositiveLaw::confirm(const Snapshot& snapshot, double noise) {
+  if (allIsDue(snapshot, Looking::seldom)) return checkAll(snapshot, noise);
+  return Outcome::of(0.0, positiveTolerance(noise, 3));
 }
 
 }  // namespace slamscope::slam

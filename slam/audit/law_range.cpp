@@ -24,6 +24,11 @@ SpanBasis spanOf(const Transition& t, const UpdateAnatomy& anatomy) {
 
 }  // namespace
 
+double rangeTolerance(const Transition& t, double span, double size) {
+  const double rounding = 2.0 * t.mean_noise * t.largest_scale;
+  return 1e-5 + (span + 8.0 * rounding) / size;
+}
+
 Outcome checkRange(const Transition& t, const UpdateAnatomy& anatomy) {
   if (anatomy.support.kind != Outcome::Kind::checked) {
     return Outcome::notCheckable(anatomy.support.reason);
@@ -34,7 +39,6 @@ Outcome checkRange(const Transition& t, const UpdateAnatomy& anatomy) {
   mean.Omega = Eigen::MatrixXd::Zero(t.size(), 1);
   const Eigen::VectorXd change = t.meanChange();
   mean.Y = t.scale.cwiseProduct(change);
-  const Eigen::VectorXd rounding = (2.0 * t.mean_noise) * t.scale;
   for (const int state : statesOf(anatomy.outside)) {
     kept.W.row(state).setZero();
     mean.Y.row(state).setZero();
@@ -50,7 +54,7 @@ Outcome checkRange(const Transition& t, const UpdateAnatomy& anatomy) {
     const SpanFit without = fitSpan(t, mean, kept);
     if (without.whole) fit = without;
   }
-  const double tolerance = 1e-5 + fit.tolerance + 8.0 * rounding.maxCoeff() / size;
+  const double tolerance = rangeTolerance(t, fit.tolerance * size, size);
   if (tolerance > 0.2) return Outcome::notCheckable("the change of x drowns in the log's rounding");
   Outcome outcome = Outcome::of(fit.residual, tolerance);
   if (!outcome.violated()) return outcome;

@@ -120,9 +120,25 @@ void describe(const Transition& t, const Growth& growth, Outcome& outcome) {
 
 }  // namespace
 
+bool featuresShrink(const Transition& t, const Eigen::VectorXd& diagonal,
+                    const Eigen::VectorXd& beside) {
+  const double tolerance = shrinkTolerance(t);
+  for (int i = 0; i < t.shared; ++i) {
+    const int r = Snapshot::row(i);
+    const Eigen::Vector2d scale = t.scale.segment<2>(r);
+    const bool exact = scale.x() == 0.0 || scale.y() == 0.0;
+    if (exact && (diagonal[r] < 0.0 || diagonal[r + 1] < 0.0)) return false;
+    const double a = diagonal[r] * scale.x() * scale.x() + tolerance;
+    const double b = beside[r + 1] * scale.x() * scale.y();
+    const double c = diagonal[r + 1] * scale.y() * scale.y() + tolerance;
+    if (!(a >= 0.0 && c >= 0.0 && a * c >= b * b)) return false;
+  }
+  return true;
+}
+
 Outcome checkShrink(const Transition& t, bool map_only, bool everything) {
   if (t.shared == 0 && map_only) return {};
-  const double tolerance = 1e-8 + 8.0 * t.noise;
+  const double tolerance = shrinkTolerance(t);
   Growth growth;
   lookAtFeatures(t, tolerance, growth);
   double residual = growth.of_feature;

@@ -45,9 +45,9 @@ std::optional<std::vector<Eigen::Vector2d>> frozenDeltas(const Transition& t,
   if (!points.after_prediction) return std::nullopt;
   std::vector<Eigen::Vector2d> deltas;
   for (const int i : observed) {
-    const auto found = points.after_prediction->features.find(t.id(i));
-    if (found == points.after_prediction->features.end()) return std::nullopt;
-    deltas.emplace_back(found->second - points.after_prediction->pose.head<2>());
+    const std::optional<Eigen::Vector2d> then = points.after_prediction->feature(t.id(i));
+    if (!then) return std::nullopt;
+    deltas.emplace_back(*then - points.after_prediction->pose.head<2>());
   }
   return deltas;
 }

@@ -10,12 +10,14 @@
 
 namespace slamscope::slam {
 
-/// Means of a record, by feature id.
+/// Means of a record.
 struct Means {
   Eigen::Vector3d pose = Eigen::Vector3d::Zero();
-  std::unordered_map<FeatureId, Eigen::Vector2d> features;
+  std::vector<FeatureId> ids;
+  std::vector<Eigen::Vector2d> features;
+
+  [[nodiscard]] std::optional<Eigen::Vector2d> feature(FeatureId id) const;
 };
-[[nodiscard]] Means meansOf(const Snapshot& snapshot);
 
 /// Points at which a filter may have linearised, other than the mean before the update: what tells
 /// lawful variants (frozen linearisation, first-estimates Jacobians) from a stale state.

@@ -40,6 +40,14 @@ std::string_view verdictWords(const AuditReport& report) {
   return report.classes.empty() ? "no law is broken" : "laws are broken";
 }
 
+std::string missingWords(const AuditReport& report) {
+  if (report.verdict != Verdict::inconclusive) return {};
+  return std::to_string(report.corrections_checked) +
+         " corrections (updates, or time steps where only these are logged) could be checked; a "
+         "verdict takes " +
+         std::to_string(kFewestCorrections);
+}
+
 std::string runWords(const AuditReport& report) {
   return std::to_string(report.records) + " records from t = " + timeText(report.first_time_s) +
          " to " + timeText(report.last_time_s) + ", level " + report.level +

@@ -19,6 +19,10 @@ using Finding = std::vector<const LawReport*>;
 /// "laws are broken", "no law is broken", "too little to judge"
 [[nodiscard]] std::string_view verdictWords(const AuditReport& report);
 
+/// Why there is no verdict: "1 correction could be checked (an update, or a time step …" Empty
+/// where there is one.
+[[nodiscard]] std::string missingWords(const AuditReport& report);
+
 /// "921 records from t = 0.00 s to 45.40 s, level L2, numbers: double"
 [[nodiscard]] std::string runWords(const AuditReport& report);
 

@@ -172,6 +172,9 @@ std::string verdictHtml(const AuditReport& report) {
   out.append(gravity(report)).append("\" id=\"verdict\">\n");
   out.append(tagged("h1", "", headline(report))).append("\n");
   out.append(tagged("p", "class=\"summary\"", runWords(report))).append("\n");
+  if (const std::string missing = missingWords(report); !missing.empty()) {
+    out.append(tagged("p", "class=\"summary\"", missing)).append("\n");
+  }
   const auto list = [&](std::string_view label, const std::vector<std::string>& lines) {
     for (const std::string& line : lines) {
       out.append("<p class=\"likely\">").append(tagged("span", "class=\"label\"", label));

@@ -56,6 +56,7 @@ std::string reportJson(const AuditReport& report) {
   json["level"] = report.level;
   json["precision"] = report.precision;
   json["records"] = report.records;
+  json["corrections_checked"] = report.corrections_checked;
   json["alpha"] = report.alpha;
   json["laws"] = Json::array();
   for (const LawReport& law : report.laws) json["laws"].push_back(lawJson(law));

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "slam/audit/report_findings.hpp"
+
 namespace slamscope::slam {
 namespace {
 
@@ -73,11 +75,18 @@ std::string reportJunit(const AuditReport& report, std::string_view run_name,
   const auto count = [&](auto predicate) {
     return std::to_string(std::count_if(report.laws.begin(), report.laws.end(), predicate));
   };
+  const std::string missing = missingWords(report);
+  const std::size_t inconclusive = missing.empty() ? 0 : 1;
   std::string xml =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"" + escaped(run_name) +
-      "\" tests=\"" + std::to_string(report.laws.size()) + "\" failures=\"" + count(fails) +
-      "\" errors=\"0\" skipped=\"" +
+      "\" tests=\"" + std::to_string(report.laws.size() + inconclusive) + "\" failures=\"" +
+      count(fails) + "\" errors=\"" + std::to_string(inconclusive) + "\" skipped=\"" +
       count([](const LawReport& law) { return law.status == LawStatus::not_checkable; }) + "\">\n";
+  if (inconclusive != 0) {
+    xml += "  <testcase classname=\"slamscope.audit\" name=\"verdict\">\n    <error type=\"";
+    xml.append(verdictName(report.verdict)).append("\" message=\"").append(escaped(missing));
+    xml += "\"/>\n  </testcase>\n";
+  }
   for (const LawReport& law : report.laws) xml += testCase(law, fails(law));
   return xml + "</testsuite>\n";
 }

@@ -114,6 +114,7 @@ void paragraph(std::string& out, const Finding& group) {
 std::string reportText(const AuditReport& report) {
   std::string out;
   line(out, "audit", std::string(verdictWords(report)) + ": " + runWords(report));
+  if (const std::string missing = missingWords(report); !missing.empty()) line(out, "", missing);
   for (const auto& group : findingsOf(report)) paragraph(out, group);
   for (const std::string& likely : report.likely) line(out, "likely", likely);
   for (const std::string& hint : report.hints) line(out, "perhaps meant", hint);

@@ -15,6 +15,19 @@ double logMeanExp(const std::array<double, Count>& logs) {
   return top + std::log(sum / static_cast<double>(Count));
 }
 
+/// peak ← the larger of it and log of the mean, which is never more than the largest of them.
+template <std::size_t Count>
+void raisePeak(double& peak, const std::array<double, Count>& logs) {
+  if (*std::max_element(logs.begin(), logs.end()) > peak) peak = std::max(peak, logMeanExp(logs));
+}
+
+template <std::size_t Count>
+std::array<double, Count> logarithms(const std::array<double, Count>& factors) {
+  std::array<double, Count> logs{};
+  for (std::size_t k = 0; k < Count; ++k) logs[k] = std::log(factors[k]);
+  return logs;
+}
+
 }  // namespace
 
 void ScaleTest::take(double q, int dof) {
@@ -23,13 +36,14 @@ void ScaleTest::take(double q, int dof) {
   ++count_;
   dof_ += static_cast<std::uint64_t>(dof);
   sum_ += q;
+  static const std::array<double, kFactors.size()> logs = logarithms(kFactors);
   for (std::size_t k = 0; k < kFactors.size(); ++k) {
     const double f = kFactors[k];
-    above_[k] += -0.5 * dof * std::log(f) + 0.5 * q / band_.high * (1.0 - 1.0 / f);
-    below_[k] += 0.5 * dof * std::log(f) + 0.5 * q / band_.low * (1.0 - f);
+    above_[k] += -0.5 * dof * logs[k] + 0.5 * q / band_.high * (1.0 - 1.0 / f);
+    below_[k] += 0.5 * dof * logs[k] + 0.5 * q / band_.low * (1.0 - f);
   }
-  peak_above_ = std::max(peak_above_, logMeanExp(above_));
-  peak_below_ = std::max(peak_below_, logMeanExp(below_));
+  raisePeak(peak_above_, above_);
+  raisePeak(peak_below_, below_);
 }
 
 double ScaleTest::evidence() const {

@@ -10,9 +10,6 @@
 namespace slamscope::slam {
 namespace {
 
-constexpr double kSafety = 8.0;       ///< over the error expected from independent roundings
-constexpr double kArithmetic = 1e-6;  ///< of D itself: what other forms of the update may lose
-
 /// Pivots below this and the Gram matrix loses too much: then Householder, with column pivots.
 constexpr double kLeastPivot = 1e-4;
 
@@ -165,7 +162,7 @@ std::vector<Eigen::Vector2d> lawfulDeltas(const Snapshot& snapshot,
 ProbedChange probeChange(const Transition& t, int begin, int count) {
   ProbedChange change;
   change.begin = begin;
-  change.Omega = probes(t.size() - begin, count, t.after->sequence);
+  fillProbes(t.after->sequence, t.size() - begin, count, change.Omega);
   change.Y = changeTimes(t, begin, change.Omega);
   return change;
 }
@@ -194,7 +191,7 @@ SpanFit fitSpan(const Transition& t, const ProbedChange& change, const Orthonorm
       error += span.noise[c] * std::abs(weight(c, k));
     const double size = Y.col(k).cwiseAbs().maxCoeff();
     if (size == 0.0) continue;
-    const double tolerance = kSafety * error + kArithmetic * size;
+    const double tolerance = spanTolerance(error, size);
     const double residual = fit.outside.col(k).cwiseAbs().maxCoeff();
     if (!(residual <= tolerance)) fit.whole = false;
     if (tolerance > 0.05 * size || (t.rounded && !span.all_resolved)) fit.checkable = false;

@@ -61,6 +61,12 @@ struct SpanFit {
   Eigen::MatrixXd outside;  ///< residual of Y by state
 };
 
+/// What may be left outside of a span of an image whose largest entry is `size`: 8 times the error
+/// that independent roundings leave, and what other forms of the update lose.
+[[nodiscard]] inline double spanTolerance(double error, double size) {
+  return 8.0 * error + 1e-6 * size;
+}
+
 /// Whether the columns of D lie in the span, but for rows and columns of `without` (states, those
 /// before basis.begin are left out anyway). Tolerance: the error that
 /// rounding of D and of the basis can leave.

@@ -23,9 +23,9 @@ struct WrongReading {
 
 std::optional<Eigen::Vector2d> at(const std::optional<Means>& means, FeatureId id) {
   if (!means) return std::nullopt;
-  const auto found = means->features.find(id);
-  if (found == means->features.end()) return std::nullopt;
-  return Eigen::Vector2d(found->second - means->pose.head<2>());
+  const std::optional<Eigen::Vector2d> l = means->feature(id);
+  if (!l) return std::nullopt;
+  return Eigen::Vector2d(*l - means->pose.head<2>());
 }
 
 std::vector<WrongReading> wrongReadings(const Transition& t, const LinearisationPoints& points,

@@ -7,8 +7,7 @@
 #include <unordered_map>
 
 #include "slam/angle.hpp"
-#include "slam/simulation_random.hpp"
-#include "slam/vector4.hpp"
+#include "slam/audit/packed_change.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -41,41 +40,6 @@ SnapshotPtr rearranged(const Snapshot& snapshot, const std::vector<int>& places)
   }
   result->covariance = std::move(P);
   return result;
-}
-
-double sumOf(const Vector4& v) {
-  return (v[0] + v[1]) + (v[2] + v[3]);
-}
-
-/// y += D w and z += D v for the rows and columns from `begin` of D = before − after, both packed
-/// by rows of the lower triangle: each entry is read once and used for both triangles and both
-/// vectors.
-SLAMSCOPE_FMA_CLONES
-void addTwoImages(const double* before, const double* after, std::ptrdiff_t begin,
-                  std::ptrdiff_t rows, const double* w, const double* v, double* y, double* z) {
-  for (std::ptrdiff_t i = 0; i < rows; ++i) {
-    const std::ptrdiff_t r = begin + i;
-    const double* const a = before + r * (r + 1) / 2 + begin;
-    const double* const b = after + r * (r + 1) / 2 + begin;
-    Vector4 of_w{}, of_v{};
-    std::ptrdiff_t j = 0;
-    for (; j + 4 <= i; j += 4) {
-      const Vector4 d =
-          *reinterpret_cast<const Vector4*>(a + j) - *reinterpret_cast<const Vector4*>(b + j);
-      of_w += d * *reinterpret_cast<const Vector4*>(w + j);
-      of_v += d * *reinterpret_cast<const Vector4*>(v + j);
-      *reinterpret_cast<Vector4*>(y + j) += w[i] * d;
-      *reinterpret_cast<Vector4*>(z + j) += v[i] * d;
-    }
-    for (; j < i; ++j) {
-      const double d = a[j] - b[j];
-      y[i] += d * w[j], z[i] += d * v[j];
-      y[j] += d * w[i], z[j] += d * v[i];
-    }
-    const double d = a[i] - b[i];
-    y[i] += sumOf(of_w) + d * w[i];
-    z[i] += sumOf(of_v) + d * v[i];
-  }
 }
 
 int sharedPrefix(const Snapshot& a, const Snapshot& b) {
@@ -156,6 +120,7 @@ Transition lineUp(const SnapshotPtr& before, const SnapshotPtr& after, const Exa
     t.scale[i] = variance > 1e-200 ? 1.0 / t.sigma[i] : 0.0;
     if (t.scale[i] > 0.0) smallest = std::min(smallest, variance);
   }
+  t.largest_scale = t.scale.maxCoeff();
   t.noise = exactness.covariance;
   if (exactness.covariance_absolute > 0.0) t.noise += exactness.covariance_absolute / smallest;
   double largest = t.before->pose.cwiseAbs().maxCoeff();
@@ -179,27 +144,30 @@ Transition lineUp(const SnapshotPtr& before, const SnapshotPtr& after, const Exa
 Eigen::MatrixXd changeTimes(const Transition& transition, int begin, const Eigen::MatrixXd& W) {
   const int rows = transition.size() - begin;
   const Eigen::VectorXd scale = transition.scale.tail(rows);
-  // By two probes at a time; an odd one is filled up by zeros.
-  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(rows, (W.cols() + 1) / 2 * 2);
-  input.leftCols(W.cols()) = scale.asDiagonal() * W;
-  Eigen::MatrixXd output = Eigen::MatrixXd::Zero(rows, input.cols());
-  const double* const before = transition.before->covariance.packed().data();
-  const double* const after = transition.after->covariance.packed().data();
-  for (Eigen::Index k = 0; k < input.cols(); k += 2) {
-    addTwoImages(before, after, begin, rows, input.col(k).data(), input.col(k + 1).data(),
-                 output.col(k).data(), output.col(k + 1).data());
+  const Eigen::MatrixXd input = scale.asDiagonal() * W;
+  Eigen::MatrixXd output = Eigen::MatrixXd::Zero(rows, W.cols());
+  const PackedChange D{transition.before->covariance.packed().data(),
+                       transition.after->covariance.packed().data(), begin};
+  for (Eigen::Index k = 0; k < W.cols(); ++k) {
+    addImage(D, 0, rows, input.col(k).data(), output.col(k).data());
   }
-  return scale.asDiagonal() * output.leftCols(W.cols());
+  return scale.asDiagonal() * output;
 }
 
-Eigen::MatrixXd probes(int rows, int count, std::uint64_t seed) {
-  RandomSource random(seed + 0x5eed);
-  Eigen::MatrixXd W(rows, count);
+void fillProbes(std::uint64_t seed, Eigen::Index rows, Eigen::Index count, Eigen::MatrixXd& W) {
+  // Numbers by their place (Steele et al. 2014, "Fast splittable pseudorandom number generators"):
+  // no generator has to be started for the few that a record needs.
+  constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;
+  std::uint64_t place = (seed + 0x5eed) * 0xd1342543de82ef95;
+  W.resize(rows, count);
   for (Eigen::Index k = 0; k < W.size(); ++k) {
-    const double u = random.uniform(-1.0, 1.0);
-    W(k) = u < 0.0 ? u - 0.5 : u + 0.5;
+    std::uint64_t bits = place += kStep;
+    bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9;
+    bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111eb;
+    bits ^= bits >> 31U;
+    const double size = 0.5 + static_cast<double>(bits >> 12U) * 0x1.0p-52;
+    W(k) = (bits & 1U) != 0 ? size : -size;
   }
-  return W;
 }
 
 }  // namespace slamscope::slam

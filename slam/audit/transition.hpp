@@ -25,9 +25,10 @@ struct Exactness {
 struct Transition {
   SnapshotPtr before;
   SnapshotPtr after;
-  int shared = 0;           ///< features in both: the first `shared` of each
-  Eigen::VectorXd sigma;    ///< √diag P⁻ of robot and shared features, N
-  Eigen::VectorXd scale;    ///< 1 / sigma; 0 for a state that is known exactly
+  int shared = 0;         ///< features in both: the first `shared` of each
+  Eigen::VectorXd sigma;  ///< √diag P⁻ of robot and shared features, N
+  Eigen::VectorXd scale;  ///< 1 / sigma; 0 for a state that is known exactly
+  double largest_scale = 0.0;
   double noise = 1e-11;     ///< error of an entry of P⁻ or P⁺, scaled by √diag
   double mean_noise = 0.0;  ///< error of a mean (m or rad)
   bool rounded = false;
@@ -56,11 +57,11 @@ struct Transition {
                                 const Exactness& exactness);
 
 /// (D W) of the scaled D = P⁻ − P⁺ for states `begin` … size − 1; W has a row for each. One pass
-/// over P⁻ and P⁺ for every two columns.
+/// over P⁻ and P⁺ a column.
 [[nodiscard]] Eigen::MatrixXd changeTimes(const Transition& transition, int begin,
                                           const Eigen::MatrixXd& W);
 
-/// Random signs with random sizes in [0.5, 1.5], always the same for the same seed.
-[[nodiscard]] Eigen::MatrixXd probes(int rows, int count, std::uint64_t seed);
+/// W ← random signs with random sizes in [0.5, 1.5], always the same for the same seed.
+void fillProbes(std::uint64_t seed, Eigen::Index rows, Eigen::Index count, Eigen::MatrixXd& W);
 
 }  // namespace slamscope::slam

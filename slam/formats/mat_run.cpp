@@ -236,7 +236,7 @@ std::unique_ptr<RunSource> openMatRun(const std::string& path) {
     const std::string text = error.what();
     throw std::runtime_error(text.starts_with(path) ? text : path + ": " + text);
   }
-  for (std::string& warning : arrays.warnings) warning = path + ": " + warning;
+  for (std::string& warning : arrays.warnings) warning.insert(0, path + ": ");
   return std::make_unique<ArrayRun>(path, std::move(arrays));
 }
 

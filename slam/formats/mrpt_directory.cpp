@@ -51,7 +51,7 @@ Table readTable(const fs::path& file) {
   const auto fail = [&](const std::string& what) {
     throw std::runtime_error(file.filename().string() + ":" + std::to_string(line) + ": " + what);
   };
-  const auto endRow = [&] {
+  const auto end_row = [&] {
     if (in_row == 0) return;
     if (table.rows++ == 0) columns = in_row;
     if (in_row != columns) {
@@ -64,7 +64,7 @@ Table readTable(const fs::path& file) {
   const char* const end = at + text.size();
   while (at != end) {
     if (*at == '\n') {
-      endRow();
+      end_row();
       ++line;
     }
     if (std::isspace(static_cast<unsigned char>(*at)) != 0) {
@@ -81,7 +81,7 @@ Table readTable(const fs::path& file) {
     ++in_row;
     at = stop;
   }
-  endRow();
+  end_row();
   return table;
 }
 

@@ -64,7 +64,7 @@ NpyStream::NpyStream(std::unique_ptr<Bytes> bytes) : bytes_(std::move(bytes)) {
   std::string start(8, '\0');
   fill(start);
   if (start.substr(0, 6) != "\x93NUMPY") failHeader("expected an array in NumPy's format");
-  const int version = start[6];
+  const int version = static_cast<unsigned char>(start[6]);
   if (version < 1 || version > 3) {
     failHeader("expected version 1 to 3 of NumPy's format, found " + std::to_string(version));
   }

@@ -62,6 +62,28 @@ TEST(EyeLayout, RefusesUnknownNamesAndUnequalEyes) {
   EXPECT_THROW(layOut(EyeLayout::half_side_by_side, odd, odd, both), std::invalid_argument);
 }
 
+TEST(EyeLayout, APixelOfBothIsThatOfTheEyeThatWasLaidThere) {
+  for (const EyeLayout layout :
+       {EyeLayout::side_by_side, EyeLayout::top_bottom, EyeLayout::anaglyph}) {
+    const engine::Image both = laidOut(layout);
+    for (int v = 0; v < both.height; ++v) {
+      for (int u = 0; u < both.width; ++u) {
+        const EyePixel seen = eyePixel(layout, {2, 2}, {u, v});
+        const Eigen::Vector2i pixel = seen.pixel.cast<int>();
+        const int expected = 100 * seen.eye + 4 * (2 * pixel.y() + pixel.x());
+        EXPECT_EQ(both.rgba[4 * std::size_t(both.width * v + u)], expected);
+        // Twin: the other eye has another.
+        EXPECT_NE(both.rgba[4 * std::size_t(both.width * v + u)], 100 - expected);
+      }
+    }
+  }
+  // Half as wide, a pixel is in the middle between two.
+  EXPECT_EQ(eyePixel(EyeLayout::half_side_by_side, {8, 2}, {3.0, 1.0}).pixel.x(), 6.5);
+  const EyePixel right = eyePixel(EyeLayout::half_side_by_side, {8, 2}, {5.0, 1.0});
+  EXPECT_EQ(right.eye, 1);
+  EXPECT_EQ(right.pixel.x(), 2.5);
+}
+
 TEST(Latency, IsWholeOnlyWhereTheCameraStampsByTheSteadyClock) {
   using std::chrono::milliseconds;
   const std::chrono::steady_clock::time_point dequeued{milliseconds(1'000'020)};

@@ -22,6 +22,15 @@ TEST(KeyCommands, ModeGoesRoundTheThreeOfThePaperAndTheAlarms) {
   EXPECT_EQ(choices.mode, slam::PairMode::all);
 }
 
+TEST(KeyCommands, ColoursAreThePapersOrTheSafeOnes) {
+  Monitor::Choices choices;
+  KeyCommands keys(choices);
+  keys.press('c');
+  EXPECT_EQ(choices.palette, PaletteName::safe);
+  keys.press('c');
+  EXPECT_EQ(choices.palette, PaletteName::paper);
+}
+
 TEST(KeyCommands, AxisBringsItsOwnGain) {
   Monitor::Choices choices;
   KeyCommands keys(choices);

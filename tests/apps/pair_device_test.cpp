@@ -64,6 +64,7 @@ class PairOnDevice : public testing::TestWithParam<engine::PairWay> {
                                             .points = points_,
                                             .path = path,
                                             .clusters = clusters,
+                                            .cluster_pairs = {},
                                             .alarms = alarms},
                                            style_);
     engine::PairGlyphs glyphs = *built.pairs;

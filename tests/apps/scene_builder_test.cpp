@@ -12,6 +12,8 @@
 namespace slamscope::apps {
 namespace {
 
+const Palette& kColours = paletteOf(PaletteName::paper);
+
 struct Shown {
   slam::Snapshot snapshot;
   slam::Clustering clusters;
@@ -32,10 +34,13 @@ engine::Scene sceneOf(const Shown& shown, const SceneStyle& style, const AlarmMa
   PathTrace path;
   path.add({0.0, 0.0});
   path.add(shown.snapshot.pose.head<2>());
+  const slam::PairSelection of_clusters =
+      slam::selectPairs(shown.snapshot, slam::PairMode::min_mean_max, shown.clusters);
   return buildScene({.snapshot = shown.snapshot,
                      .points = pointsOf(shown.snapshot),
                      .path = path,
                      .clusters = shown.clusters,
+                     .cluster_pairs = of_clusters.cluster_pairs,
                      .alarms = alarms},
                     style);
 }
@@ -69,7 +74,7 @@ TEST(SceneBuilder, AllPairsOfFifteenFeaturesAre105WithTheirLines) {
 }
 
 TEST(SceneBuilder, ThinningIsLeftToTheDeviceAndLeavesTheLinesOut) {
-  const engine::Scene scene = sceneOf(endOfRun(), {.most_pairs = 20, .least_area = 1e-4});
+  const engine::Scene scene = sceneOf(endOfRun(), {.thinning = {.most = 20, .least_area = 1e-4}});
   EXPECT_EQ(scene.pairs->choice.most, 20U);
   EXPECT_EQ(scene.pairs->choice.least_area, 1e-4);
   EXPECT_EQ(scene.lines.size(), 1U);  // the path
@@ -147,17 +152,41 @@ TEST(SceneBuilder, AlarmsShowFlaggedFeaturesAndPairsOnlyEachInItsHalo) {
   const AlarmMarks alarms = thirdFlagged(shown, last_good);
   const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::alarms}, alarms);
   EXPECT_EQ(scene.cones.size(), 2U);  // the robot's, and feature 3's
-  EXPECT_EQ(count(scene.cones, colour::kFlagged), 1);
+  EXPECT_EQ(count(scene.cones, kColours.flagged), 1);
   EXPECT_EQ(scene.labels.size(), 1U);
   EXPECT_EQ(ellipsoidCount(scene), 14U);
-  EXPECT_EQ(count(scene.ellipsoids, colour::kFlaggedEllipsoid), 14);
-  ASSERT_EQ(count(scene.ellipsoids, colour::kHalo), 14);
+  EXPECT_EQ(count(scene.ellipsoids, kColours.flagged_ellipsoid), 14);
+  ASSERT_EQ(count(scene.ellipsoids, kColours.halo), 14);
   for (const engine::Ellipsoid& halo : scene.ellipsoids) {
-    if (!alike(halo.colour, colour::kHalo)) continue;
+    if (!alike(halo.colour, kColours.halo)) continue;
     EXPECT_NEAR(halo.axes.col(0).norm(), 3.0 * 0.2, 1e-12);
     EXPECT_NEAR(halo.axes.col(1).norm(), 3.0 * 0.1, 1e-12);
   }
-  EXPECT_EQ(count(scene.lines, colour::kHaloRing), 1);
+  EXPECT_EQ(count(scene.lines, kColours.halo_ring), 1);
+}
+
+TEST(SceneBuilder, VeryManyFlaggedPairsAreThoseOfTheFlaggedFeaturesByTheDevice) {
+  Shown shown{.snapshot = {}, .clusters = {}};
+  constexpr int kCount = 60;
+  shown.snapshot.covariance = slam::PackedCovariance(3 + 2 * kCount);
+  Judgement judgement;
+  for (int k = 0; k < kCount; ++k) {
+    const auto id = static_cast<slam::FeatureId>(k);
+    shown.snapshot.ids.push_back(id);
+    shown.snapshot.features.emplace_back(0.1 * k, 0.0);
+    if (k % 2 == 0) judgement.alarms.features.push_back({.feature = id, .last_good = {}});
+    for (slam::FeatureId other = 0; other < id; ++other) {
+      if (k % 2 == 0 || other % 2 == 0) judgement.alarms.pairs.push_back({other, id, {}});
+    }
+  }
+  ASSERT_GT(judgement.alarms.pairs.size(), kMostPairLines);
+  shown.clusters = slam::clusterAt(shown.snapshot.features, 1.0);
+  const engine::Scene scene =
+      sceneOf(shown, {.mode = slam::PairMode::alarms}, AlarmMarks(judgement));
+  ASSERT_TRUE(scene.pairs);
+  EXPECT_EQ(chosenPairs(scene), judgement.alarms.pairs.size());
+  EXPECT_TRUE(alike(scene.pairs->colour, kColours.flagged));
+  EXPECT_TRUE(scene.ellipsoids.empty());
 }
 
 TEST(SceneBuilder, FlaggedIsMagentaInEveryModeAndNothingElseIs) {
@@ -165,19 +194,19 @@ TEST(SceneBuilder, FlaggedIsMagentaInEveryModeAndNothingElseIs) {
   const AlarmMarks alarms = thirdFlagged(shown, Eigen::Matrix2d::Identity());
   const engine::Scene scene = sceneOf(shown, {.mode = slam::PairMode::all}, alarms);
   EXPECT_EQ(ellipsoidCount(scene), 14U);
-  EXPECT_EQ(count(scene.ellipsoids, colour::kFlaggedEllipsoid), 14);
+  EXPECT_EQ(count(scene.ellipsoids, kColours.flagged_ellipsoid), 14);
   EXPECT_EQ(chosenPairs(scene), 105U - 14U);
-  EXPECT_EQ(count(scene.lines, colour::kFlaggedPair), 14);
+  EXPECT_EQ(count(scene.lines, kColours.flagged_pair), 14);
   EXPECT_EQ(scene.cones.size(), 16U);
-  EXPECT_EQ(count(scene.cones, colour::kFlagged), 1);
+  EXPECT_EQ(count(scene.cones, kColours.flagged), 1);
 
   const engine::Scene summary = sceneOf(shown, {.mode = slam::PairMode::min_mean_max}, alarms);
   EXPECT_EQ(ellipsoidCount(summary), 9U);
 
   // Twin: without alarms nothing is.
   const engine::Scene healthy = sceneOf(shown, {.mode = slam::PairMode::all});
-  EXPECT_EQ(count(healthy.ellipsoids, colour::kFlaggedEllipsoid), 0);
-  EXPECT_EQ(count(healthy.cones, colour::kFlagged), 0);
+  EXPECT_EQ(count(healthy.ellipsoids, kColours.flagged_ellipsoid), 0);
+  EXPECT_EQ(count(healthy.cones, kColours.flagged), 0);
   EXPECT_TRUE(sceneOf(shown, {.mode = slam::PairMode::alarms}).ellipsoids.empty());
 }
 
@@ -190,10 +219,10 @@ TEST(SceneBuilder, TentativeFeaturesArePaleWithAQuestionMarkAndTheirPairsFaint) 
       return glyph.colour.r == hue.r && glyph.colour.g == hue.g && glyph.colour.a == hue.a;
     });
   };
-  EXPECT_EQ(count(scene.cones, colour::kTentative), 1);
-  EXPECT_EQ(count(scene.cones, colour::kFeature), 14);
-  EXPECT_EQ(count(scene.ellipsoids, colour::kTentativeEllipsoid), 14);
-  EXPECT_EQ(count(scene.lines, colour::kTentativePair), 14);
+  EXPECT_EQ(count(scene.cones, kColours.tentative), 1);
+  EXPECT_EQ(count(scene.cones, kColours.feature), 14);
+  EXPECT_EQ(count(scene.ellipsoids, kColours.tentative_ellipsoid), 14);
+  EXPECT_EQ(count(scene.lines, kColours.tentative_pair), 14);
   EXPECT_EQ(scene.pairs->choice.left_out.size(), 14U);  // the device draws the others
   EXPECT_EQ(scene.labels[3].text, std::to_string(shown.snapshot.ids[3]) + "?");
   EXPECT_EQ(scene.labels[4].text, std::to_string(shown.snapshot.ids[4]));

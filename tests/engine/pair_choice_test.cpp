@@ -125,6 +125,44 @@ TEST_F(PairWays, PointsThatNoBufferTakesAreSaidSo) {
   EXPECT_EQ(stats_.pairs.chosen, 0U);
 }
 
+/// Without a dense matrix, which would be four times as large: uncorrelated, one pair apart.
+PairGlyphs largeMap(int n) {
+  std::vector<Eigen::Vector2d> means;
+  std::vector<double> lower(std::size_t(n) * std::size_t(2 * n + 1), 0.0);
+  for (int i = 0; i < n; ++i) {
+    means.emplace_back(0.8 * std::cos(1.7 * i), 0.8 * std::sin(2.3 * i));
+    for (const std::size_t row : {std::size_t(2 * i), std::size_t(2 * i + 1)}) {
+      lower[row * (row + 1) / 2 + row] = 1e-6 * (1 + i % 3);
+    }
+  }
+  return {.points = std::make_shared<PlanarPoints>(means, lower),
+          .axis = {},
+          .choice = {},
+          .colour = kWhite};
+}
+
+TEST_F(PairWays, TheLeastDeviceSplatsTwoThousandEightHundredPoints) {
+  useGpu(GpuOptions{
+      .validation = true, .most_texels = kLeastTexels, .most_storage_bytes = kLeastStorageBytes});
+  const View view = overFloor();
+  (void)draw(view, sceneOf(largeMap(2800)), {});
+  EXPECT_EQ(stats_.pairs.problem, "");
+  EXPECT_TRUE(stats_.pairs.splatted);
+  EXPECT_EQ(stats_.pairs.chosen, 3'918'600U);
+  EXPECT_EQ(stats_.pairs.drawn, 3'918'600U);
+}
+
+TEST_F(PairWays, WithSmallerStorageBuffersQuadsDoItAll) {
+  const Scene scene = sceneOf(someMap(60, 0.01));
+  useGpu(GpuOptions{.validation = true, .most_storage_bytes = 320 * 240 * 16});
+  (void)draw(overFloor(), scene, {});
+  EXPECT_TRUE(stats_.pairs.splatted);
+  useGpu(GpuOptions{.validation = true, .most_storage_bytes = 320 * 240 * 16 - 1});
+  (void)draw(overFloor(), scene, {});
+  EXPECT_FALSE(stats_.pairs.splatted);
+  EXPECT_EQ(stats_.pairs.chosen, 1770U);
+}
+
 TEST(PlanarPoints, NeedTheWholeTriangle) {
   const std::vector<Eigen::Vector2d> means(3, Eigen::Vector2d::Zero());
   EXPECT_NO_THROW(PlanarPoints(means, std::vector<double>(45), 3));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/clip.hpp"
 #include "engine/scene/ellipsoid_outline.hpp"
-#include "engine/scene/pair_pick.hpp"
+#include "engine/scene/pair_ellipsoid.hpp"
 #include "tests/engine/pair_scene.hpp"
 
 // Pairs of points as ellipsoids, pixel by pixel, in both ways of drawing.
@@ -201,6 +201,22 @@ TEST_P(PairPicture, TranslucentOnesFadeAsOneLayer) {
   EXPECT_NEAR(momentsOf(faded).area, 0.5 * momentsOf(opaque).area, 0.02 * momentsOf(opaque).area);
 }
 
+TEST_P(PairPicture, RimsKeepLargeOnesApartAndLeaveSmallOnesTheirColour) {
+  const View view = overFloor();
+  const double px = 2.1 / 300.0;  // m, at the middle of the picture
+  /// Light of a glyph in all, as a share of what it has where nothing is shaded.
+  const auto brightness = [&](double radius_px) {
+    const PairGlyphs glyphs =
+        pairWith(covarianceOf(radius_px * px, radius_px * px, 0.0), {0.05, 0.0});
+    return momentsOf(draw(view, sceneOf(glyphs), options(true))).area /
+           momentsOf(draw(view, sceneOf(glyphs), options(false))).area;
+  };
+  const double small = brightness(1.0);
+  EXPECT_GT(small, 0.65);
+  // Twin: of one that has a rim that share of it is darker.
+  EXPECT_LT(brightness(5.0), small - 0.1);
+}
+
 TEST_P(PairPicture, StandAmongWhatElseIsInTheSceneByDepth) {
   const View view = overFloor();
   PairGlyphs glyphs = pairWith(covarianceOf(0.2, 0.15, 0.0), {0.0, 0.0});
@@ -214,34 +230,6 @@ TEST_P(PairPicture, StandAmongWhatElseIsInTheSceneByDepth) {
   EXPECT_EQ(at(drawn(view, scene)).g, 0.0F) << "the nearer ellipsoid hides the pair";
   scene.ellipsoids[0].centre = -0.3 * eye;
   EXPECT_EQ(at(drawn(view, scene)).g, 1.0F) << "the farther one is hidden";
-}
-
-TEST_P(PairPicture, APixelIsOfThePairThatIsPickedThere) {
-  const View view = overFloor();
-  PairGlyphs glyphs = someMap(9, 0.06);
-  const Image picture = drawn(view, sceneOf(glyphs));
-  for (int v = 20; v < picture.height; v += 24) {
-    for (int u = 20; u < picture.width; u += 24) {
-      glyphs.choice = {};
-      const auto picked = pickPair(glyphs, view, Eigen::Vector2d(u, v));
-      if (coverage(picture, u, v) > 0.0 && coverage(picture, u, v) < 1.0) continue;  // an edge
-      ASSERT_EQ(picked.has_value(), coverage(picture, u, v) == 1.0) << u << ' ' << v;
-      if (!picked) continue;
-      // Alone it is seen there, maybe at its edge, and in its place what else is hit lies behind
-      // it.
-      std::vector<std::pair<std::uint32_t, std::uint32_t>> others;
-      for (std::uint32_t j = 1; j < 9; ++j) {
-        for (std::uint32_t i = 0; i < j; ++i) {
-          if (i != picked->i || j != picked->j) others.emplace_back(i, j);
-        }
-      }
-      glyphs.choice = {.left_out = others};
-      EXPECT_GE(coverage(draw(view, sceneOf(glyphs), options()), u, v), 0.45);
-      glyphs.choice = {.left_out = {{picked->j, picked->i}}};
-      const auto next = pickPair(glyphs, view, Eigen::Vector2d(u, v));
-      EXPECT_GT(next ? next->depth : picked->depth + 1.0, picked->depth);
-    }
-  }
 }
 
 }  // namespace

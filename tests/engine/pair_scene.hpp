@@ -82,19 +82,19 @@ class PairTest : public PictureTest {
  protected:
   std::vector<Image> draw(std::span<const View> views, const Scene& scene,
                           const RenderOptions& options) {
-    auto& offscreen = offscreen_[views.size() - 1];
+    auto& made = offscreen_[views.size() - 1];
     const Pinhole& camera = views.front().camera;
     const int count = static_cast<int>(views.size());
-    if (!offscreen) {
-      offscreen = std::make_unique<Offscreen>(gpu_, camera.width, camera.height, count);
-    }
-    auto pictures = offscreen->draw(views, scene, options);
-    stats_ = offscreen->lastStats();
+    if (!made) made = std::make_unique<Offscreen>(gpu_, camera.width, camera.height, count);
+    auto pictures = made->draw(views, scene, options);
+    stats_ = made->lastStats();
     return pictures;
   }
   Image draw(const View& view, const Scene& scene, const RenderOptions& options) {
     return draw({&view, 1}, scene, options).front();
   }
+  /// What drew that many views last.
+  Offscreen& offscreen(std::size_t views) { return *offscreen_.at(views - 1); }
   void useGpu(const GpuOptions& options) {
     offscreen_ = {};
     gpu_ = std::make_shared<Gpu>(options);

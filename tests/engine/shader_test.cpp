@@ -10,6 +10,7 @@
 #include "engine/render/shader_code.hpp"
 #include "shaders/interop/frame.h"
 #include "shaders/interop/glyphs.h"
+#include "shaders/interop/groups.h"
 #include "shaders/interop/pairs.h"
 
 namespace slamscope::engine {
@@ -18,6 +19,7 @@ namespace {
 /// As in shaders/interop_echo.comp.
 struct Everything {
   interop::FrameData frame;
+  interop::GroupPairData groups;
   interop::EllipsoidGlyph ellipsoid;
   interop::ConeGlyph cone;
   interop::ArrowGlyph arrow;
@@ -47,6 +49,8 @@ class Counter {
   }
   void operator()(Everything& e) {
     all(e.frame.views[0], e.frame.views[1], e.frame.near, e.frame.border_px);
+    all(e.groups.least_i, e.groups.least_j, e.groups.greatest_i, e.groups.greatest_j,
+        e.groups.mean);
     all(e.ellipsoid.centre, e.ellipsoid.axis0, e.ellipsoid.axis1, e.ellipsoid.axis2,
         e.ellipsoid.colour);
     all(e.cone.tip, e.cone.axis, e.cone.height, e.cone.radius, e.cone.colour);
@@ -58,10 +62,10 @@ class Counter {
         e.letter.colour, e.letter.anchored, e.letter.halo);
     interop::PairsData& p = e.pairs;
     all(p.points, p.pairs, p.views, p.law, p.gain, p.unit, p.origin, p.ex, p.ey, p.ez, p.scale,
-        p.colour, p.conditions, p.least_area, p.most, p.run);
+        p.colour, p.conditions, p.least_area, p.most, p.run, p.most_by);
     interop::PairsCounts& n = e.counts;
     all(n.chosen, n.drawn, n.not_finite, n.large, n.vertices, n.instances, n.first_vertex,
-        n.first_instance, n.least_key, n.rank);
+        n.first_instance, n.least_key, n.rank, n.greatest_key);
   }
   [[nodiscard]] const std::vector<float>& numbers() const { return numbers_; }
 

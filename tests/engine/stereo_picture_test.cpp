@@ -148,6 +148,8 @@ TEST_F(StereoPicture, LensShowsEachColourWhereItsEquationPutsIt) {
         const Eigen::Vector2d off = Eigen::Vector2d(u, v) - axis;
         const double s = (off / 120).squaredNorm();
         const double factor = 1 + s * (lens.k[0] + s * (lens.k[1] + s * lens.k[2]));
+        const Eigen::Vector2d green = axis + lens.scale[1] * factor * off;
+        EXPECT_LT((green - drawnPixel(lens, {320, 240}, {u, v})).norm(), 1e-9);
         for (int c = 0; c < 3; ++c) {
           const Eigen::Vector2d from = axis + lens.scale[c] * factor * off;
           const int found = channel(worn[eye], u, v, c);

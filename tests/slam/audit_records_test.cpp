@@ -54,18 +54,6 @@ TEST(AuditRecords, AnIndefiniteCovarianceIsAFinding) {
   EXPECT_TRUE(std::find(blamed.begin(), blamed.end(), 2) != blamed.end());
 }
 
-TEST(AuditRecords, OneRecordIsTooLittle) {
-  Audit audit;
-  audit.take(std::make_shared<Snapshot>([] {
-    Snapshot s;
-    s.covariance = PackedCovariance(3);
-    return s;
-  }()));
-  EXPECT_EQ(audit.report().verdict, Verdict::inconclusive);
-  EXPECT_EQ(exitStatus(audit.report()), 3);
-  EXPECT_EQ(exitStatus(Audit().report()), 3);
-}
-
 TEST(AuditRecords, ADiagonalLogIsLevelZeroAndStillCatchesGrowth) {
   const auto diagonal = [](Snapshot& s) {
     s.diagonal_only = true;

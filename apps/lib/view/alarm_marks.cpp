@@ -8,7 +8,9 @@ namespace slamscope::apps {
 AlarmMarks::AlarmMarks(const Judgement& judgement) {
   for (const slam::FeatureId id : judgement.flagged()) features_[id] = {};
   for (const slam::FeatureAlarm& alarm : judgement.alarms.features) {
-    if (alarm.active) features_[alarm.feature].last_good = alarm.last_good;
+    if (!alarm.active) continue;
+    features_[alarm.feature].last_good = alarm.last_good;
+    blamed_.push_back(alarm.feature);
   }
   std::vector<slam::PairAlarm> alarms = judgement.alarms.pairs;
   std::sort(alarms.begin(), alarms.end(), [](const slam::PairAlarm& l, const slam::PairAlarm& r) {

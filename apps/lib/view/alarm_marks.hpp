@@ -29,12 +29,15 @@ class AlarmMarks {
   [[nodiscard]] const Mark* pair(slam::FeatureId a, slam::FeatureId b) const;
   /// For slam::PairMode::alarms.
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
+  /// Features all of whose pairs are flagged: pairs() are theirs.
+  [[nodiscard]] std::span<const slam::FeatureId> blamed() const { return blamed_; }
   [[nodiscard]] bool empty() const { return features_.empty(); }
 
  private:
   std::map<slam::FeatureId, Mark> features_;
   std::vector<Pair> pairs_;  ///< sorted, smaller id first
   std::vector<Mark> pair_marks_;
+  std::vector<slam::FeatureId> blamed_;
 };
 
 }  // namespace slamscope::apps

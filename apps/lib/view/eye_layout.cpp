@@ -47,6 +47,29 @@ EyeLayout eyeLayoutFromName(const std::string& name) {
                               ": expected side-by-side, half-side-by-side, top-bottom or anaglyph");
 }
 
+EyePixel eyePixel(EyeLayout layout, const Eigen::Vector2i& eye_size, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d size = eye_size.cast<double>();
+  const auto beyond = [&pixel](int axis, double extent) { return pixel[axis] >= extent - 0.5; };
+  switch (layout) {
+    case EyeLayout::side_by_side: {
+      const bool right = beyond(0, size.x());
+      return {right ? 1 : 0, pixel - Eigen::Vector2d(right ? size.x() : 0.0, 0.0)};
+    }
+    case EyeLayout::half_side_by_side: {
+      const bool right = beyond(0, 0.5 * size.x());
+      const double x = pixel.x() - (right ? 0.5 * size.x() : 0.0);
+      return {right ? 1 : 0, {2.0 * x + 0.5, pixel.y()}};
+    }
+    case EyeLayout::top_bottom: {
+      const bool below = beyond(1, size.y());
+      return {below ? 1 : 0, pixel - Eigen::Vector2d(0.0, below ? size.y() : 0.0)};
+    }
+    case EyeLayout::anaglyph:
+      break;
+  }
+  return {0, pixel};
+}
+
 void layOut(EyeLayout layout, const Image& left, const Image& right, Image& both) {
   if (left.width != right.width || left.height != right.height) {
     throw std::invalid_argument("two eyes of different size can't share a picture");

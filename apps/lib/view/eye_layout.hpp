@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
 #include "engine/scene/view.hpp"
@@ -22,5 +23,14 @@ enum class EyeLayout {
 /// odd width with half_side_by_side.
 void layOut(EyeLayout layout, const engine::Image& left, const engine::Image& right,
             engine::Image& both);
+
+/// Which of the two pictures a pixel of both shows, and where. Of an anaglyph, which shows both at
+/// the same place, the left one.
+struct EyePixel {
+  int eye = 0;  ///< 0: the one laid out as the left
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
+[[nodiscard]] EyePixel eyePixel(EyeLayout layout, const Eigen::Vector2i& eye_size,
+                                const Eigen::Vector2d& pixel);
 
 }  // namespace slamscope::apps

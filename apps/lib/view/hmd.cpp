@@ -5,45 +5,31 @@
 #include <cstdio>
 
 #include "apps/lib/view/hmd_state.hpp"
-#include "engine/window/window.hpp"
 
 namespace slamscope::apps {
-namespace {
 
-using slam::seconds;
-
-std::shared_ptr<engine::Gpu> gpuFor(const MonitorOptions& view) {
-  return std::make_shared<engine::Gpu>(
-      engine::GpuOptions{.device = view.device,
-                         .validation = view.validation,
-                         .instance_extensions = view.window ? engine::windowInstanceExtensions()
-                                                            : std::vector<std::string>{}});
-}
-
-}  // namespace
-
-Hmd::State::State(const HmdOptions& request)
-    : options(request),
-      truth(truthFor(request.view)),
-      setup(openStereo(request, truth)),
-      choices(choicesOf(request.view)),
-      layer(options.view, choices),
+Hmd::State::State(const HmdOptions& asked)
+    : ViewedRun(asked.view),
+      request(asked),
+      setup(openStereo(asked, truth)),
       head(setup, registrationPairs()),
       pairs(setup),
-      gpu(gpuFor(request.view)),
       picture(gpu, head.rig(),
-              {.width = request.view.width,
-               .height = request.view.height,
+              {.width = options.width,
+               .height = options.height,
                .layout = request.layout,
                .swap_eyes = request.swap_eyes}) {
-  if (!request.view.output.empty()) output = openPictureOutput(request.view.output, setup.fps);
-  if (!request.latency.empty()) latency.emplace(request.latency);
+  live_frames = setup.source->live();
+  source_frames = setup.source->count();
+  notes = setup.notes;
+  if (!options.output.empty()) output = openPictureOutput(options.output, setup.fps);
+  if (!asked.latency.empty()) latency.emplace(asked.latency);
 }
 
 int Hmd::State::registrationPairs() const {
   constexpr std::uint64_t kPairs = 30;
   std::uint64_t count = setup.source->count().value_or(0);
-  const std::uint64_t asked = options.view.frames;
+  const std::uint64_t asked = options.frames;
   if (asked > 0) count = count > 0 ? std::min(count, asked) : asked;
   // A short film can't spend thirty frames on standing still.
   return static_cast<int>(count > 0 ? std::clamp<std::uint64_t>((count + 1) / 2, 1, kPairs)
@@ -56,7 +42,7 @@ bool Hmd::State::runIsOver() const {
 }
 
 bool Hmd::State::next() {
-  if (options.view.frames > 0 && frame_count >= options.view.frames) return false;
+  if (options.frames > 0 && frame_count >= options.frames) return false;
   if (frame_count > 0 && runIsOver()) return false;
   StopWatch watch;
   const std::optional<TakenPair> pair = pairs.next();
@@ -70,15 +56,7 @@ bool Hmd::State::next() {
               .presented = {}};
   problems = pair->problems;
   for (std::string& problem : head.problems()) problems.push_back(std::move(problem));
-  if (!first_time) {
-    first_time = head.time();
-    if (auto note = layer.begin(*first_time, setup.source->stamped())) {
-      setup.notes.push_back(std::move(*note));
-    }
-  }
-  if (frame_count > 0) frame_step = head.time() - frame_time;
-  frame_time = head.time();
-  ++frame_count;
+  arrive(head.time(), setup.source->stamped());
   layer.advance(frame_time);
   report.addStage("slam", watch.lap());
   layer.judge();
@@ -135,35 +113,14 @@ bool Hmd::next() {
 void Hmd::draw() {
   state_->draw();
 }
+void Hmd::explain(const Eigen::Vector2d& pixel) {
+  state_->explain(pixel);
+}
 void Hmd::finish(Ending ending) {
   state_->finish(ending);
 }
 const engine::Image& Hmd::drawn() const {
   return state_->picture.drawn();
-}
-Viewer::Choices& Hmd::choices() {
-  return state_->choices;
-}
-bool Hmd::paced() const {
-  return !state_->setup.source->live() &&
-         (state_->options.view.window || state_->layer.feed().live());
-}
-double Hmd::secondsShown() const {
-  return state_->first_time ? seconds(state_->frame_time - *state_->first_time) : 0.0;
-}
-double Hmd::frameSeconds() const {
-  return seconds(state_->frame_step);
-}
-std::uint64_t Hmd::framesShown() const {
-  return state_->frame_count;
-}
-double Hmd::progress() const {
-  const auto shown = static_cast<double>(state_->frame_count);
-  const std::uint64_t count = state_->options.view.frames > 0
-                                  ? state_->options.view.frames
-                                  : state_->setup.source->count().value_or(0);
-  if (count > 0) return shown / static_cast<double>(count);
-  return state_->truth ? state_->layer.progress(*state_->truth) : -1.0;
 }
 std::string Hmd::status() const {
   std::string all;
@@ -172,11 +129,11 @@ std::string Hmd::status() const {
   }
   return all;
 }
-const std::vector<std::string>& Hmd::notes() const {
-  return state_->setup.notes;
+ViewedRun& Hmd::run() {
+  return *state_;
 }
-const std::shared_ptr<engine::Gpu>& Hmd::gpu() const {
-  return state_->gpu;
+const ViewedRun& Hmd::run() const {
+  return *state_;
 }
 
 }  // namespace slamscope::apps

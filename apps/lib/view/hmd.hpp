@@ -17,21 +17,17 @@ class Hmd final : public Viewer {
 
   bool next() override;
   void draw() override;
+  void explain(const Eigen::Vector2d& pixel) override;
   void presented() override;
   void finish(Ending ending) override;
 
   [[nodiscard]] const engine::Image& drawn() const override;
-  [[nodiscard]] Choices& choices() override;
-  [[nodiscard]] bool paced() const override;
-  [[nodiscard]] double secondsShown() const override;
-  [[nodiscard]] double frameSeconds() const override;
-  [[nodiscard]] std::uint64_t framesShown() const override;
-  [[nodiscard]] double progress() const override;
   [[nodiscard]] std::string status() const override;  ///< of the head, one line
-  [[nodiscard]] const std::vector<std::string>& notes() const override;
-  [[nodiscard]] const std::shared_ptr<engine::Gpu>& gpu() const override;
 
  private:
+  [[nodiscard]] ViewedRun& run() override;
+  [[nodiscard]] const ViewedRun& run() const override;
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -4,6 +4,8 @@
 
 #include "apps/lib/view/hmd_state.hpp"
 #include "apps/lib/view/overlay.hpp"
+#include "apps/lib/view/picked_glyph.hpp"
+#include "engine/scene/lens.hpp"
 
 namespace slamscope::apps {
 
@@ -15,6 +17,7 @@ void Hmd::State::draw() {
   report.addStage("scene", watch.lap());
   picture.draw(scene, render);
   layer.drawn(picture.lastStats().pairs);
+  report.addDeviceMemory(picture.lastStats().device_bytes);
   report.addStage("draw", watch.lap());
   if (drawn_frame == frame_count) return;
   drawn_frame = frame_count;
@@ -24,7 +27,7 @@ void Hmd::State::draw() {
 
 void Hmd::State::hand() {
   if (output) output->write(picture.drawn());
-  if (options.view.report.empty()) return;
+  if (options.report.empty()) return;
   const HmdFrame frame = frameReport();
   std::vector<double> errors = frame.eyes[0].overlay_errors_px;
   errors.insert(errors.end(), frame.eyes[1].overlay_errors_px.begin(),
@@ -54,17 +57,27 @@ HmdFrame Hmd::State::frameReport() const {
   return frame;
 }
 
+void Hmd::State::explain(const Eigen::Vector2d& pixel) {
+  if (!layer.newest() || scene.cones.empty()) return;
+  const EyePixel drawn = picture.underLens(pixel);
+  choices.message = whatIsAt(drawn.pixel, static_cast<std::uint32_t>(drawn.eye),
+                             {.offscreen = picture.offscreen(),
+                              .scene = scene,
+                              .snapshot = *layer.newest(),
+                              .alarms = layer.alarms()});
+}
+
 void Hmd::State::finish(Viewer::Ending ending) {
-  if (!options.view.report.empty()) report.write(options.view.report);
+  if (!options.report.empty()) report.write(options.report);
   const bool in_vain = ending == Viewer::Ending::input_ended && !setup.source->live();
   if (in_vain && !ever_shown && (setup.lab == nullptr || frame_count > 0)) {
     std::string why = head.statusLines().front();
     for (const std::string& problem : problems) why += "; " + problem;
-    throw std::runtime_error(options.view.camera + ": the map was never found in " +
+    throw std::runtime_error(options.camera + ": the map was never found in " +
                              std::to_string(frame_count) + " frames (" + why + ")");
   }
   if (output) output->finish();
-  if (!options.view.picture.empty()) writePicture(options.view.picture, picture.drawn());
+  if (!options.picture.empty()) writePicture(options.picture, picture.drawn());
 }
 
 void Hmd::presented() {
@@ -75,7 +88,7 @@ void Hmd::presented() {
   const double software = softwareLatencyMs(state.stations);
   state.report.addStage("dequeue_to_present", software);
   state.latency_ms = wholeLatencyMs(state.stations);
-  if (!state.latency_ms && state.options.view.window) state.latency_ms = software;
+  if (!state.latency_ms && state.options.window) state.latency_ms = software;
   if (state.latency) state.latency->add(state.stations);
 }
 

@@ -11,15 +11,15 @@
 #include "apps/lib/view/hmd_report.hpp"
 #include "apps/lib/view/latency_log.hpp"
 #include "apps/lib/view/picture_output.hpp"
-#include "apps/lib/view/slam_layer.hpp"
 #include "apps/lib/view/stereo_picture.hpp"
 #include "apps/lib/view/stop_watch.hpp"
+#include "apps/lib/view/viewed_run.hpp"
 
 namespace slamscope::apps {
 
 /// All that a Hmd holds. What it takes in and composes: hmd.cpp; what it hands on: hmd_output.cpp.
-struct Hmd::State {
-  explicit State(const HmdOptions& request);
+struct Hmd::State : ViewedRun {
+  explicit State(const HmdOptions& asked);
 
   bool next();
   [[nodiscard]] bool runIsOver() const;
@@ -30,16 +30,13 @@ struct Hmd::State {
   void draw();
   void hand();
   [[nodiscard]] HmdFrame frameReport() const;
+  void explain(const Eigen::Vector2d& pixel);
   void finish(Viewer::Ending ending);
 
-  HmdOptions options;
-  std::optional<RunTruth> truth;
+  HmdOptions request;  ///< `options` is its part `view`
   StereoSetup setup;
-  Choices choices;
-  SlamLayer layer;
   HeadView head;
   PairPrefetch pairs;
-  std::shared_ptr<engine::Gpu> gpu;
   StereoPicture picture;
   std::unique_ptr<PictureOutput> output;
   std::optional<LatencyLog> latency;
@@ -50,9 +47,7 @@ struct Hmd::State {
   std::vector<std::string> problems;
   FrameStations stations;
   std::optional<double> latency_ms;  ///< of the frame before: what the status line says
-  std::optional<std::chrono::nanoseconds> first_time;
-  std::chrono::nanoseconds frame_time{}, frame_step{};
-  std::uint64_t frame_count = 0, drawn_frame = 0, presented_frame = 0;
+  std::uint64_t drawn_frame = 0, presented_frame = 0;
   double metres_per_px = 0.0;  ///< at the map's origin, when it was first seen in its place
   bool ever_shown = false;
 };

@@ -71,6 +71,10 @@ void KeyCommands::press(char32_t key) {
     case 'g':
       choices_.legend = !choices_.legend;
       return;
+    case 'c':
+      choices_.palette =
+          choices_.palette == PaletteName::paper ? PaletteName::safe : PaletteName::paper;
+      return;
     case 'f':
       return nextFade();
     case ' ':

@@ -24,8 +24,8 @@ class KeyCommands {
   void say(std::string message) { choices_.message = std::move(message); }
 
   static constexpr const char* kHelp =
-      "m mode   a axis   + - gain   e rings   o own error   l labels   g legend   f fade   "
-      "space pause   . step   s screenshot   h keys   q quit";
+      "m mode   a axis   + - gain   e rings   o own error   l labels   g legend   c colours   "
+      "f fade   space pause   . step   s screenshot   h keys   q quit";
 
  private:
   void nextMode();

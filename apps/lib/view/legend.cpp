@@ -5,33 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/scene/clip.hpp"
-#include "engine/scene/label_placement.hpp"
+#include "apps/lib/view/panel_layout.hpp"
 #include "engine/scene/text_layout.hpp"
 
 namespace slamscope::apps {
 namespace {
 
-/// Sizes in px of a picture that is 720 px high; others scale, down to what can still be read.
-struct Layout {
-  double text = 14.0;
-  double margin = 10.0;
-  double padding = 7.0;
-  double row = 19.0;
-  double swatch = 12.0;
-  double bar = 12.0;
-
-  explicit Layout(const engine::Pinhole& camera) {
-    const double scale = std::clamp(camera.height / 720.0, 0.75, 3.0);
-    for (double* size : {&text, &margin, &padding, &row, &swatch, &bar}) {
-      *size = std::round(*size * scale);
-    }
-  }
-};
-
 constexpr engine::Rgba kPanel{0.04F, 0.05F, 0.07F, 0.66F};
 constexpr engine::Rgba kText{0.96F, 0.96F, 0.96F, 1.0F};
-constexpr engine::Rgba kAlarmText{1.0F, 0.55F, 0.96F, 1.0F};  // of magenta what reads on the panel
 
 template <typename... Values>
 std::string format(const char* pattern, Values... values) {
@@ -66,44 +47,60 @@ std::string axisText(const slam::AxisScale& axis) {
          (axis.gain == 1.0 ? " in true length" : format(" × gain %g", axis.gain));
 }
 
+std::string mostText(engine::MostBy by) {
+  switch (by) {
+    case engine::MostBy::growth:
+      return "that grew most since they were first drawn";
+    case engine::MostBy::last_growth:
+      return "that grew most since the record before";
+    case engine::MostBy::area:
+      break;
+  }
+  return "largest";
+}
+
 /// Which of the mode's pairs are shown, where not all are, and whether with lines.
 void addChoice(const Legend& legend, std::vector<Row>& rows) {
   const auto add = [&rows](std::string text) {
     rows.emplace_back(engine::Rgba{.a = 0.0F}, std::move(text));
   };
-  if (legend.most_pairs > 0) add(format("the %u largest of them only", legend.most_pairs));
-  if (legend.least_area > 0.0) {
-    add("only those of sqrt(det) ≥ (" + lengthText(std::sqrt(legend.least_area)) + ")²");
+  const PairThinning& thinning = legend.thinning;
+  if (thinning.in_view) add("only those of features in the picture");
+  if (thinning.least_area > 0.0) {
+    add("only those of sqrt(det) ≥ (" + lengthText(std::sqrt(thinning.least_area)) + ")²");
   }
+  if (thinning.most > 0) add(format("of them the %u ", thinning.most) + mostText(thinning.by));
   if (legend.lines_left_out)
     add("too many pairs for lines: each stands midway between its features");
 }
 
 std::vector<Row> rowsOf(const Legend& legend) {
   const bool only_flagged = legend.mode == slam::PairMode::alarms;
-  std::vector<Row> rows{{colour::kRobot, "robot and its path"}};
-  if (!only_flagged) rows.emplace_back(colour::kFeature, "features");
-  if (legend.tentative) rows.emplace_back(colour::kTentative, "tentative: not seen often enough");
+  const Palette& colours = paletteOf(legend.palette);
+  std::vector<Row> rows{{colours.robot, "robot and its path"}};
+  if (!only_flagged) rows.emplace_back(colours.feature, "features");
+  if (legend.tentative) rows.emplace_back(colours.tentative, "tentative: not seen often enough");
   if (legend.covariance_rings) {
-    rows.push_back({colour::kFeature, format("ring: %gσ of the position", legend.axis.k)});
+    rows.push_back({colours.feature, format("ring: %gσ of the position", legend.axis.k)});
   }
   if (legend.own_error) {
-    rows.push_back({colour::kOwnError,
+    rows.push_back({colours.own_error,
                     format("white ring: %gσ of the registration's own error", legend.axis.k)});
   }
   if (!only_flagged) {
     const bool three = legend.mode == slam::PairMode::min_mean_max;
-    rows.push_back({colour::kEllipsoid, std::string(three ? "least, mean, greatest" : "relative") +
-                                            " covariance, " + axisText(legend.axis)});
+    rows.push_back({colours.ellipsoid, std::string(three ? "least, mean, greatest" : "relative") +
+                                           " covariance, " + axisText(legend.axis)});
     if (!three) addChoice(legend, rows);
   }
   if (legend.flagged) {
-    rows.emplace_back(colour::kFlagged, "flagged by the audit; faint: its last good size");
+    rows.emplace_back(colours.flagged, "flagged by the audit; faint: its last good size");
     if (only_flagged) rows.emplace_back(engine::Rgba{.a = 0.0F}, axisText(legend.axis));
   }
   if (legend.clusters > 0) {
     rows.push_back({{},
-                    format("%d clusters, cut at ", legend.clusters) +
+                    (legend.clusters == 1 ? "one cluster, cut at "
+                                          : format("%d clusters, cut at ", legend.clusters)) +
                         lengthText(legend.cluster_cut) +
                         (legend.automatic_cut ? " (automatic)" : "")});
     rows.back().swatch.a = 0.0F;
@@ -111,7 +108,7 @@ std::vector<Row> rowsOf(const Legend& legend) {
   return rows;
 }
 
-Eigen::Vector2d panelSize(const std::vector<AlarmLine>& lines, const Layout& px,
+Eigen::Vector2d panelSize(const std::vector<AlarmLine>& lines, const PanelLayout& px,
                           engine::FontAtlas& fonts) {
   double width = 0.0;
   for (const AlarmLine& line : lines) {
@@ -121,14 +118,20 @@ Eigen::Vector2d panelSize(const std::vector<AlarmLine>& lines, const Layout& px,
   return {width + 2.0 * px.padding, height + 2.0 * px.padding - 2.0};
 }
 
-void addPanel(engine::Scene& scene, const std::vector<AlarmLine>& lines,
-              const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Layout& px) {
+/// Where a panel stands.
+struct PanelPlace {
+  Eigen::Vector2d corner, size;  // px
+};
+
+void addPanel(engine::Scene& scene, const std::vector<AlarmLine>& lines, const PanelPlace& place,
+              const PanelLayout& px, const engine::Rgba& alarm_colour = kText) {
+  const auto& [corner, size] = place;
   Eigen::Vector2d at = corner + Eigen::Vector2d::Constant(px.padding);
   for (const AlarmLine& line : lines) {
     scene.texts.push_back({.position_px = at,
                            .text = line.text,
                            .height_px = px.text,
-                           .colour = line.alarm ? kAlarmText : kText});
+                           .colour = line.alarm ? alarm_colour : kText});
     at.y() += px.row;
   }
   scene.rects.push_back({.min_px = corner, .max_px = corner + size, .colour = kPanel});
@@ -173,14 +176,16 @@ double eigenvalueOfLength(const slam::AxisScale& axis, double length) {
 void addStatus(engine::Scene& scene, const std::vector<std::string>& lines,
                const engine::Pinhole& camera, engine::FontAtlas& fonts) {
   const std::vector<AlarmLine> plain(lines.begin(), lines.end());
-  const Layout px(camera);
-  addPanel(scene, plain, Eigen::Vector2d::Constant(px.margin), panelSize(plain, px, fonts), px);
+  const PanelLayout px(camera);
+  addPanel(scene, plain,
+           {.corner = Eigen::Vector2d::Constant(px.margin), .size = panelSize(plain, px, fonts)},
+           px);
 }
 
-void addAlarms(engine::Scene& scene, std::vector<AlarmLine> lines, const engine::Pinhole& camera,
-               engine::FontAtlas& fonts) {
+void addAlarms(engine::Scene& scene, std::vector<AlarmLine> lines, PaletteName palette,
+               const engine::Pinhole& camera, engine::FontAtlas& fonts) {
   if (lines.empty()) return;
-  const Layout px(camera);
+  const PanelLayout px(camera);
   const Eigen::Vector2d far = Eigen::Vector2d(camera.width, camera.height).array() - px.margin;
   Eigen::Vector2d size = panelSize(lines, px, fonts);
   double bottom = far.y();
@@ -192,12 +197,13 @@ void addAlarms(engine::Scene& scene, std::vector<AlarmLine> lines, const engine:
     lines.resize(std::min(lines.size(), kFewAlarms), AlarmLine({}));
     size = panelSize(lines, px, fonts);
   }
-  addPanel(scene, lines, {far.x() - size.x(), bottom - size.y()}, size, px);
+  addPanel(scene, lines, {.corner = {far.x() - size.x(), bottom - size.y()}, .size = size}, px,
+           paletteOf(palette).alarm_text);
 }
 
 void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole& camera,
                engine::FontAtlas& fonts) {
-  const Layout px(camera);
+  const PanelLayout px(camera);
   const std::vector<Row> rows = rowsOf(legend);
   const bool bar = legend.px_per_m > 0.0;
   const double left = px.margin + px.padding;
@@ -235,73 +241,6 @@ void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole
   }
   scene.rects[panel] = {
       .min_px = {px.margin, top}, .max_px = {right + px.padding, top + height}, .colour = kPanel};
-}
-
-namespace {
-
-/// Nearest first, no more than kMostLabels; whole up to twice the distance of the nearest, gone at
-/// five times.
-void fadeWithDistance(std::vector<engine::Label>& labels, const engine::View& view) {
-  constexpr std::size_t kMostLabels = 150;
-  const auto depth = [&view](const engine::Label& label) {
-    return (view.T_eye_scene * label.anchor).z();
-  };
-  std::erase_if(labels, [&](const engine::Label& label) { return depth(label) <= 0.0; });
-  if (labels.empty()) return;
-  std::ranges::stable_sort(labels, {}, depth);
-  const double nearest = depth(labels.front());
-  if (labels.size() > kMostLabels) labels.resize(kMostLabels);
-  for (engine::Label& label : labels) {
-    const double share = (5.0 - depth(label) / nearest) / 3.0;
-    label.colour.a *= static_cast<float>(std::clamp(share, 0.0, 1.0));
-  }
-  std::erase_if(labels, [](const engine::Label& label) { return label.colour.a <= 0.0F; });
-}
-
-}  // namespace
-
-void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAtlas& fonts) {
-  std::vector<engine::PixelBox> obstacles;
-  const auto pixel = [&view](const Eigen::Vector3d& p_scene) -> std::optional<Eigen::Vector2d> {
-    const Eigen::Vector3d p_eye = view.T_eye_scene * p_scene;
-    if (p_eye.z() < 0.05) return std::nullopt;
-    return engine::project(view.camera, p_eye);
-  };
-  for (const engine::Cone& cone : scene.cones) {
-    const auto tip = pixel(cone.tip);
-    const auto rim = pixel(cone.tip + cone.height * Eigen::Vector3d::UnitZ());
-    const auto side = pixel(cone.tip + Eigen::Vector3d(cone.radius, 0.0, cone.height));
-    if (!tip || !rim || !side) continue;
-    const Eigen::Vector2d radius = Eigen::Vector2d::Constant((*side - *rim).norm());
-    obstacles.push_back(
-        {.min_px = tip->cwiseMin(*rim - radius), .max_px = tip->cwiseMax(*rim + radius)});
-  }
-  for (const engine::ScreenRect& rect : scene.rects)
-    obstacles.push_back({rect.min_px, rect.max_px});
-
-  std::vector<engine::LabelRequest> requests;
-  std::vector<engine::Label> in_view;
-  const double text_px = Layout(view.camera).text;
-  fadeWithDistance(scene.labels, view);
-  for (engine::Label& label : scene.labels) {
-    label.height_px = text_px;
-    const auto anchor = pixel(label.anchor);
-    if (!anchor) continue;
-    const engine::TextExtent extent = engine::measureText(fonts, label.text, label.height_px);
-    requests.push_back({.anchor_px = *anchor,
-                        .size_px = {extent.width_px, extent.height_px},
-                        .last_offset_px = {}});
-    in_view.push_back(std::move(label));
-  }
-  const engine::PixelBox picture{.min_px = Eigen::Vector2d::Zero(),
-                                 .max_px = Eigen::Vector2d(view.camera.width, view.camera.height)};
-  const auto offsets = engine::placeLabels(requests, obstacles, {.picture = picture});
-  scene.labels.clear();
-  for (std::size_t k = 0; k < in_view.size(); ++k) {
-    if (!offsets[k]) continue;
-    in_view[k].offset_px = *offsets[k];
-    scene.labels.push_back(std::move(in_view[k]));
-  }
 }
 
 }  // namespace slamscope::apps

@@ -16,6 +16,7 @@ namespace slamscope::apps {
 struct Legend {
   slam::PairMode mode = slam::PairMode::all;
   slam::AxisScale axis;
+  PaletteName palette = PaletteName::paper;
   double map_scale = 1.0;
   bool covariance_rings = false;
   bool own_error = false;    ///< the registration's, at each feature
@@ -23,11 +24,10 @@ struct Legend {
   int clusters = 0;          ///< 0: not shown
   double cluster_cut = 0.0;  ///< m
   bool automatic_cut = true;
-  std::uint32_t most_pairs = 0;  ///< as SceneStyle
-  double least_area = 0.0;       ///< m²
-  bool lines_left_out = false;   ///< there are too many pairs for a line each
-  bool flagged = false;          ///< something is, or could be, drawn as flagged by the audit
-  double px_per_m = 0.0;         ///< of the scene at the middle of the map; 0: no scale bar
+  PairThinning thinning;
+  bool lines_left_out = false;  ///< there are too many pairs for a line each
+  bool flagged = false;         ///< something is, or could be, drawn as flagged by the audit
+  double px_per_m = 0.0;        ///< of the scene at the middle of the map; 0: no scale bar
 };
 
 /// Puts lines of text on a dark panel in the picture's upper left corner.
@@ -42,20 +42,16 @@ struct AlarmLine {
   bool alarm = false;  ///< in the colour of what the audit flags
 };
 
-/// The same in the lower right corner. Where there is no room beside other panels only the first
-/// kFewAlarms lines, above them. Nothing for no lines.
+/// The same in the lower right corner, alarms in the palette's colour for them. Where there is no
+/// room beside other panels only the first kFewAlarms lines, above them. Nothing for no lines.
 inline constexpr std::size_t kFewAlarms = 2;
-void addAlarms(engine::Scene& scene, std::vector<AlarmLine> lines, const engine::Pinhole& camera,
-               engine::FontAtlas& fonts);
+void addAlarms(engine::Scene& scene, std::vector<AlarmLine> lines, PaletteName palette,
+               const engine::Pinhole& camera, engine::FontAtlas& fonts);
 
 /// Puts the legend into the picture's lower left corner: what each glyph is, how long its axes are,
 /// and a bar of a round length with what it stands for.
 void addLegend(engine::Scene& scene, const Legend& legend, const engine::Pinhole& camera,
                engine::FontAtlas& fonts);
-
-/// Puts feature labels where they cover neither their cones nor each other; those without a free
-/// place are left out, and of very many those farthest from the viewer, whose labels fade.
-void spreadLabels(engine::Scene& scene, const engine::View& view, engine::FontAtlas& fonts);
 
 /// Eigenvalue (m²) whose semi-axis is drawn `length` m long: the inverse of AxisScale::semiAxis.
 [[nodiscard]] double eigenvalueOfLength(const slam::AxisScale& axis, double length);

@@ -17,8 +17,11 @@ void Monitor::draw() {
 }
 void Monitor::explain(const Eigen::Vector2d& pixel) {
   if (!state_->shown()) return;
-  state_->choices.message = whatIsAt(pixel, state_->picture.scene, *state_->layer.newest(),
-                                     state_->picture.view, state_->setup.map_scale);
+  state_->choices.message = whatIsAt(pixel, 0,
+                                     {.offscreen = state_->offscreen,
+                                      .scene = state_->picture.scene,
+                                      .snapshot = *state_->layer.newest(),
+                                      .alarms = state_->layer.alarms()});
 }
 void Monitor::finish(Ending ending) {
   state_->finish(ending);
@@ -29,41 +32,14 @@ const Monitor::Picture& Monitor::picture() const {
 const engine::Image& Monitor::drawn() const {
   return state_->pixels.front();
 }
-Monitor::Choices& Monitor::choices() {
-  return state_->choices;
-}
-
-bool Monitor::paced() const {
-  return !state_->setup.source->live() && (state_->options.window || state_->layer.feed().live());
-}
-double Monitor::secondsShown() const {
-  return state_->first_time ? seconds(state_->frame_time - *state_->first_time) : 0.0;
-}
-double Monitor::frameSeconds() const {
-  return seconds(state_->frame_step);
-}
-std::uint64_t Monitor::framesShown() const {
-  return state_->frame_count;
-}
-double Monitor::progress() const {
-  const State& state = *state_;
-  if (state.options.frames > 0) {
-    return static_cast<double>(state.frame_count) / static_cast<double>(state.options.frames);
-  }
-  if (const auto count = state.setup.source->count(); count && *count > 0) {
-    return static_cast<double>(state.frame_count) / static_cast<double>(*count);
-  }
-  if (!state.truth) return -1.0;
-  return state.layer.progress(*state.truth);
-}
 std::string Monitor::status() const {
   return state_->registration.status();
 }
-const std::vector<std::string>& Monitor::notes() const {
-  return state_->setup.notes;
+ViewedRun& Monitor::run() {
+  return *state_;
 }
-const std::shared_ptr<engine::Gpu>& Monitor::gpu() const {
-  return state_->gpu;
+const ViewedRun& Monitor::run() const {
+  return *state_;
 }
 
 }  // namespace slamscope::apps

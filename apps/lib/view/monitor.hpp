@@ -40,18 +40,12 @@ class Monitor final : public Viewer {
   };
   [[nodiscard]] const Picture& picture() const;
   [[nodiscard]] const engine::Image& drawn() const override;
-  [[nodiscard]] Choices& choices() override;
-
-  [[nodiscard]] bool paced() const override;
-  [[nodiscard]] double secondsShown() const override;
-  [[nodiscard]] double frameSeconds() const override;
-  [[nodiscard]] std::uint64_t framesShown() const override;
-  [[nodiscard]] double progress() const override;
   [[nodiscard]] std::string status() const override;
-  [[nodiscard]] const std::vector<std::string>& notes() const override;
-  [[nodiscard]] const std::shared_ptr<engine::Gpu>& gpu() const override;
 
  private:
+  [[nodiscard]] ViewedRun& run() override;
+  [[nodiscard]] const ViewedRun& run() const override;
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "apps/lib/view/monitor_state.hpp"
-#include "engine/window/window.hpp"
 
 namespace slamscope::apps {
 namespace {
@@ -22,22 +21,17 @@ tracking::TagDetectorOptions detectorOptions(const CameraSetup& setup) {
 }  // namespace
 
 Monitor::State::State(const MonitorOptions& request)
-    : options(request),
-      truth(truthFor(request)),
+    : ViewedRun(request),
       setup(openCamera(request, truth)),
-      choices(choicesOf(request)),
-      layer(options, choices),
       camera(makeOutputCamera(setup.info, request.width, request.height)),
       source_camera(setup.info),
       detector(detectorOptions(setup)),
       registration(setup.registration, source_camera),
       frames(*setup.source),
-      gpu(std::make_shared<engine::Gpu>(engine::GpuOptions{
-          .device = request.device,
-          .validation = request.validation,
-          .instance_extensions =
-              request.window ? engine::windowInstanceExtensions() : std::vector<std::string>{}})),
       offscreen(gpu, camera.pinhole.width, camera.pinhole.height) {
+  live_frames = setup.source->live();
+  source_frames = setup.source->count();
+  notes = setup.notes;
   if (!request.output.empty()) output = openPictureOutput(request.output, setup.fps);
   if (!request.lab_truth.empty()) {
     if (!setup.lab) throw std::runtime_error("--lab-truth: only the lab knows its truth");
@@ -59,15 +53,7 @@ bool Monitor::State::next() {
   const std::optional<tracking::Frame> frame = frames.next();
   if (!frame) return false;
   report.addStage("frame", watch.lap());
-  if (!first_time) {
-    first_time = frame->time;
-    if (auto note = layer.begin(frame->time, setup.source->stamped())) {
-      setup.notes.push_back(std::move(*note));
-    }
-  }
-  if (frame_count > 0) frame_step = frame->time - frame_time;
-  frame_time = frame->time;
-  ++frame_count;
+  arrive(frame->time, setup.source->stamped());
   detect(*frame);
   report.addStage("detect", watch.lap());
   layer.advance(frame_time);

@@ -38,9 +38,9 @@ struct MonitorOptions {
   slam::PairMode mode = slam::PairMode::all;
   slam::AxisScale axis;
   std::vector<slam::FeatureId> selected;
-  std::uint32_t most_pairs = 0;       ///< as SceneStyle
-  double least_area = 0.0;            ///< m²
+  PairThinning thinning;
   std::optional<double> cluster_cut;  ///< m
+  PaletteName palette = PaletteName::paper;
   double opacity = 1.0;
   bool covariance_rings = false;
   bool own_error = false;

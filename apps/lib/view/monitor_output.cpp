@@ -15,6 +15,7 @@ void Monitor::State::draw() {
   report.addStage("scene", watch.lap());
   offscreen.draw({&picture.view, 1}, picture.scene, picture.render, pixels);
   layer.drawn(offscreen.lastStats().pairs);
+  report.addDeviceMemory(offscreen.lastStats().device_bytes);
   report.addStage("draw", watch.lap());
   if (drawn_frame == frame_count) return;
   drawn_frame = frame_count;
@@ -34,7 +35,8 @@ void Monitor::State::hand() {
 /// Where only pictures of the end are wanted, the lab can go straight there.
 void Monitor::State::skipToTheEnd() {
   const bool looked_at = output || !options.report.empty() || options.window || options.frames > 0;
-  if (looked_at || skipped || !setup.lab || !truth) return;
+  const bool remembers = options.thinning.by == engine::MostBy::growth;
+  if (looked_at || remembers || skipped || !setup.lab || !truth) return;
   skipped = true;
   const double end = std::min(seconds(truth->end), options.until.value_or(seconds(truth->end)));
   const double left = (end - seconds(layer.runTime())) / options.slam_rate;

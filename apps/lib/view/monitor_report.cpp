@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/lib/view/monitor_report.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -33,6 +35,13 @@ ordered_json brokenJson(const slam::LawReport& law) {
           {"violations", law.violations},
           {"amount", law.amount},
           {"features", std::move(features)}};
+}
+
+/// The most memory that this process ever had.
+std::uint64_t hostPeakBytes() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t{1024} * static_cast<std::uint64_t>(usage.ru_maxrss);  // Linux counts KiB
 }
 
 }  // namespace
@@ -105,6 +114,10 @@ void MonitorReport::addStage(const std::string& stage, double milliseconds) {
   stage_ms_[stage].push_back(milliseconds);
 }
 
+void MonitorReport::addDeviceMemory(std::size_t bytes) {
+  device_bytes_ = std::max(device_bytes_, bytes);
+}
+
 ordered_json MonitorReport::summary() const {
   ordered_json stages = ordered_json::object();
   for (const auto& [name, times] : stage_ms_) {
@@ -115,7 +128,8 @@ ordered_json MonitorReport::summary() const {
            {{"median", orNull(quantile(overlay_errors_px_, 0.5))},
             {"p95", orNull(quantile(overlay_errors_px_, 0.95))},
             {"max", orNull(quantile(overlay_errors_px_, 1.0))}}},
-          {"stage_ms", std::move(stages)}};
+          {"stage_ms", std::move(stages)},
+          {"memory", {{"device_bytes", device_bytes_}, {"host_peak_bytes", hostPeakBytes()}}}};
 }
 
 void MonitorReport::write(const std::filesystem::path& file) const {

@@ -43,6 +43,8 @@ class MonitorReport {
   /// A frame of another viewer, as it stands in the file, with the errors that the summary counts.
   void addFrame(nlohmann::ordered_json frame, const std::vector<double>& overlay_errors_px);
   void addStage(const std::string& stage, double milliseconds);
+  /// Of the device, after a frame. The host's is asked for when the report is made.
+  void addDeviceMemory(std::size_t bytes);
   /// Throws std::runtime_error where the file can't be written.
   void write(const std::filesystem::path& file) const;
 
@@ -52,6 +54,7 @@ class MonitorReport {
   nlohmann::ordered_json frames_ = nlohmann::ordered_json::array();
   std::vector<double> overlay_errors_px_;
   std::map<std::string, std::vector<double>> stage_ms_;
+  std::size_t device_bytes_ = 0;  ///< at most
 };
 
 [[nodiscard]] nlohmann::ordered_json rowsJson(const Eigen::MatrixXd& matrix);

@@ -7,15 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/lib/run_truth.hpp"
 #include "apps/lib/view/camera_setup.hpp"
 #include "apps/lib/view/frame_prefetch.hpp"
 #include "apps/lib/view/monitor.hpp"
 #include "apps/lib/view/monitor_report.hpp"
 #include "apps/lib/view/output_camera.hpp"
 #include "apps/lib/view/picture_output.hpp"
-#include "apps/lib/view/slam_layer.hpp"
 #include "apps/lib/view/stop_watch.hpp"
+#include "apps/lib/view/viewed_run.hpp"
 #include "engine/render/offscreen.hpp"
 #include "tracking/tag_detector.hpp"
 
@@ -23,7 +22,7 @@ namespace slamscope::apps {
 
 /// All that a Monitor holds. What it takes in: monitor_input.cpp; what it composes of it:
 /// monitor_picture.cpp; what it hands on: monitor_output.cpp.
-struct Monitor::State {
+struct Monitor::State : ViewedRun {
   explicit State(const MonitorOptions& request);
 
   bool next();
@@ -43,25 +42,16 @@ struct Monitor::State {
   }
   [[nodiscard]] bool shown() const { return registered().has_value() && layer.newest() != nullptr; }
 
-  MonitorOptions options;
-  std::optional<RunTruth> truth;
   CameraSetup setup;
-  Choices choices;
-  SlamLayer layer;
   OutputCamera camera;
   tracking::CameraModel source_camera;
   tracking::TagDetector detector;
   tracking::Registration registration;
   FramePrefetch frames;
-  std::shared_ptr<engine::Gpu> gpu;
   engine::Offscreen offscreen;
   std::unique_ptr<PictureOutput> output;
   MonitorReport report;
 
-  std::optional<std::chrono::nanoseconds> first_time;
-  std::chrono::nanoseconds frame_time{};
-  std::chrono::nanoseconds frame_step{};
-  std::uint64_t frame_count = 0;
   std::uint64_t drawn_frame = 0;
   bool ever_registered = false;
   bool skipped = false;        ///< to the end

@@ -7,8 +7,21 @@
 #include <numbers>
 #include <string>
 
+#include "apps/lib/view/glyph_meaning.hpp"
+
 namespace slamscope::apps {
 namespace {
+
+using What = GlyphMeaning::What;
+
+std::uint64_t tagOf(What what, int i = 0, int j = 0) {
+  return GlyphMeaning{
+      .what = what, .i = static_cast<std::uint32_t>(i), .j = static_cast<std::uint32_t>(j)}
+      .tag();
+}
+std::uint64_t tagOf(What what, const slam::FeaturePair& pair) {
+  return tagOf(what, pair.i, pair.j);
+}
 
 /// The length of a semi-axis as slam::AxisScale has it, in m of the scene.
 engine::AxisLaw axisLaw(const SceneStyle& style) {
@@ -30,22 +43,29 @@ engine::AxisLaw axisLaw(const SceneStyle& style) {
 class SceneBuilder {
  public:
   SceneBuilder(const Belief& belief, const SceneStyle& style)
-      : belief_(belief), snapshot_(belief.snapshot), alarms_(belief.alarms), style_(style) {}
+      : belief_(belief),
+        snapshot_(belief.snapshot),
+        alarms_(belief.alarms),
+        style_(style),
+        colours_(paletteOf(style.palette)) {}
 
   void addRobot(const PathTrace& path) {
-    engine::Polyline trace{.points = {}, .width_px = 2.5, .colour = colour::kRobot};
+    engine::Polyline trace{
+        .points = {}, .width_px = 2.5, .colour = colours_.robot, .tag = tagOf(What::path)};
     for (const Eigen::Vector2d& point : path.points()) trace.points.push_back(onFloor(point));
     if (trace.points.size() > 1) scene_.lines.push_back(std::move(trace));
 
     const Eigen::Vector3d position = onFloor(snapshot_.pose.head<2>());
-    scene_.cones.push_back(cone(position, colour::kRobot));
+    scene_.cones.push_back(cone(position, colours_.robot, tagOf(What::robot)));
     scene_.arrows.push_back({.origin = position,
                              .heading = snapshot_.pose.z(),
                              .length = style_.arrow_length,
                              .width = 0.36 * style_.arrow_length,
-                             .colour = colour::kHeading});
+                             .colour = colours_.heading,
+                             .tag = tagOf(What::robot)});
     if (style_.covariance_rings) {
-      addRing(snapshot_.pose.head<2>(), snapshot_.covariance.block2(0, 0), colour::kRobot);
+      addRing(snapshot_.pose.head<2>(), snapshot_.covariance.block2(0, 0), colours_.robot,
+              tagOf(What::robot));
     }
   }
 
@@ -53,17 +73,18 @@ class SceneBuilder {
     for (int k = 0; k < snapshot_.featureCount(); ++k) {
       const AlarmMarks::Mark* mark = alarms_.feature(id(k));
       if (style_.mode == slam::PairMode::alarms && mark == nullptr) continue;
-      const engine::Rgba& hue = mark != nullptr  ? colour::kFlagged
-                                : isTentative(k) ? colour::kTentative
-                                                 : colour::kFeature;
+      const engine::Rgba& hue = mark != nullptr  ? colours_.flagged
+                                : isTentative(k) ? colours_.tentative
+                                                 : colours_.feature;
       const Eigen::Vector2d& feature = snapshot_.features[static_cast<std::size_t>(k)];
-      scene_.cones.push_back(cone(onFloor(feature), hue));
+      scene_.cones.push_back(cone(onFloor(feature), hue, tagOf(What::feature, k)));
       if (style_.covariance_rings || (mark != nullptr && mark->last_good)) {
         const int row = slam::Snapshot::row(k);
-        addRing(feature, snapshot_.covariance.block2(row, row), hue);
+        addRing(feature, snapshot_.covariance.block2(row, row), hue, tagOf(What::feature, k));
       }
-      if (mark != nullptr && mark->last_good)
-        addRing(feature, *mark->last_good, colour::kHaloRing, 4.0);
+      if (mark != nullptr && mark->last_good) {
+        addRing(feature, *mark->last_good, colours_.halo_ring, tagOf(What::feature, k), 4.0);
+      }
       if (!style_.labels) continue;
       scene_.labels.push_back({.anchor = onFloor(feature),
                                .text = std::to_string(id(k)) + (isTentative(k) ? "?" : ""),
@@ -75,10 +96,13 @@ class SceneBuilder {
     const Eigen::Vector3d from = featureOnFloor(pair.i);
     const Eigen::Vector3d to = featureOnFloor(pair.j);
     const bool flagged = alarms_.pair(id(pair.i), id(pair.j)) != nullptr;
-    addLine(from, to,
-            flagged            ? colour::kFlaggedPair
-            : isDoubtful(pair) ? colour::kTentativePair
-                               : colour::kPair);
+    if (!flagged || !manyFlagged()) {
+      addLine(from, to,
+              flagged            ? colours_.flagged_pair
+              : isDoubtful(pair) ? colours_.tentative_pair
+                                 : colours_.pair,
+              tagOf(What::pair, pair));
+    }
     addEllipsoid(pair, relativeEllipsoid(pair.P_d, 0.5 * (from + to), style_));
   }
 
@@ -86,32 +110,31 @@ class SceneBuilder {
   /// halos of their own, and where pairs can be told apart those of tentative features.
   void addPairsOnDevice() {
     if (!belief_.points) return;
-    engine::PairGlyphs glyphs{.points = belief_.points,
-                              .scale = style_.map_scale,
-                              .axis = axisLaw(style_),
-                              .choice = choice(),
-                              .colour = colour::kEllipsoid};
-    for (const AlarmMarks::Pair& pair : alarms_.pairs()) {
-      const auto i = snapshot_.indexOf(pair.first);
-      const auto j = snapshot_.indexOf(pair.second);
-      if (!i || !j || i == j || !shown(*i, *j)) continue;
-      glyphs.choice.left_out.emplace_back(*i, *j);
-      addPair({std::min(*i, *j), std::max(*i, *j), slam::relativeCovariance(snapshot_, *i, *j)});
-    }
-    const bool all_shown = style_.most_pairs == 0 && style_.least_area == 0.0;
-    if (all_shown && belief_.points->pairCount() <= kMostPairLines) {
+    engine::PairGlyphs glyphs = glyphsOf(choice(), colours_.ellipsoid);
+    addEachFlaggedPair(glyphs.choice);
+    if (style_.thinning.none() && belief_.points->pairCount() <= kMostPairLines) {
       addPairLines();
       addDoubtfulPairs(glyphs.choice);
     }
     scene_.pairs = std::make_shared<engine::PairGlyphs>(std::move(glyphs));
   }
 
+  /// The flagged pairs alone; very many, which go without lines and halos, by the device.
+  void addFlaggedPairs() {
+    engine::PairChoice choice;
+    if (!manyFlagged()) return addEachFlaggedPair(choice);
+    if (!belief_.points) return;
+    choice.touching = indicesOf(alarms_.blamed());
+    scene_.pairs = std::make_shared<engine::PairGlyphs>(glyphsOf(choice, colours_.flagged));
+  }
+
   void addClusterPair(const slam::ClusterPair& pair) {
     const Eigen::Vector3d from = onFloor(pair.centroid_a);
     const Eigen::Vector3d to = onFloor(pair.centroid_b);
-    addLine(from, to, colour::kPair);
+    addLine(from, to, colours_.pair, tagOf(What::mean, pair.a, pair.b));
     const Eigen::Vector3d middle = 0.5 * (from + to);
     engine::Ellipsoid mean = relativeEllipsoid(pair.mean, middle, style_);
+    mean.tag = tagOf(What::mean, pair.a, pair.b);
     engine::Ellipsoid minimum = relativeEllipsoid(pair.minimum.P_d, middle, style_);
     engine::Ellipsoid maximum = relativeEllipsoid(pair.maximum.P_d, middle, style_);
     constexpr double kGap = 1.08;  // of the touching distance
@@ -125,6 +148,42 @@ class SceneBuilder {
   [[nodiscard]] engine::Scene take() { return std::move(scene_); }
 
  private:
+  [[nodiscard]] engine::PairGlyphs glyphsOf(const engine::PairChoice& choice,
+                                            const engine::Rgba& colour) const {
+    return {.points = belief_.points,
+            .scale = style_.map_scale,
+            .axis = axisLaw(style_),
+            .choice = choice,
+            .colour = colour};
+  }
+
+  /// For PairChoice::touching: one that no point has where none of them is in the map, as no
+  /// condition would mean all pairs.
+  [[nodiscard]] std::vector<std::uint32_t> indicesOf(std::span<const slam::FeatureId> ids) const {
+    std::vector<std::uint32_t> indices;
+    for (const slam::FeatureId wanted : ids) {
+      if (const auto k = snapshot_.indexOf(wanted)) {
+        indices.push_back(static_cast<std::uint32_t>(*k));
+      }
+    }
+    if (indices.empty()) indices.push_back(~0U);
+    return indices;
+  }
+
+  [[nodiscard]] bool manyFlagged() const { return alarms_.pairs().size() > kMostPairLines; }
+
+  /// The flagged pairs that the mode shows; `others` are without them.
+  void addEachFlaggedPair(engine::PairChoice& others) {
+    if (snapshot_.diagonal_only) return;
+    for (const AlarmMarks::Pair& pair : alarms_.pairs()) {
+      const auto i = snapshot_.indexOf(pair.first);
+      const auto j = snapshot_.indexOf(pair.second);
+      if (!i || !j || i == j || !shown(*i, *j)) continue;
+      others.left_out.emplace_back(*i, *j);
+      addPair({std::min(*i, *j), std::max(*i, *j), slam::relativeCovariance(snapshot_, *i, *j)});
+    }
+  }
+
   /// Whether the mode shows this pair.
   [[nodiscard]] bool shown(int i, int j) const {
     if (style_.mode == slam::PairMode::between_clusters) {
@@ -144,20 +203,17 @@ class SceneBuilder {
   }
 
   [[nodiscard]] engine::PairChoice choice() const {
-    engine::PairChoice choice{.least_area = style_.least_area, .most = style_.most_pairs};
+    engine::PairChoice choice{.least_area = style_.thinning.least_area,
+                              .most = style_.thinning.most,
+                              .most_by = style_.thinning.by,
+                              .in_view = style_.thinning.in_view};
     if (style_.mode == slam::PairMode::between_clusters) {
       for (const int label : belief_.clusters.label) {
         choice.groups.push_back(static_cast<std::uint32_t>(label));
       }
     }
     if (style_.mode == slam::PairMode::selected) {
-      for (const slam::FeatureId wanted : style_.selected) {
-        if (const auto k = snapshot_.indexOf(wanted)) {
-          choice.touching.push_back(static_cast<std::uint32_t>(*k));
-        }
-      }
-      // None of them is there yet: no condition would mean all pairs.
-      if (choice.touching.empty()) choice.touching.push_back(~0U);
+      choice.touching = indicesOf(style_.selected);
     }
     return choice;
   }
@@ -166,7 +222,7 @@ class SceneBuilder {
     for (int i = 0; i < snapshot_.featureCount(); ++i) {
       for (int j = i + 1; j < snapshot_.featureCount(); ++j) {
         if (!plain(i, j) || isTentative(i) || isTentative(j)) continue;
-        addLine(featureOnFloor(i), featureOnFloor(j), colour::kPair);
+        addLine(featureOnFloor(i), featureOnFloor(j), colours_.pair, tagOf(What::pair, i, j));
       }
     }
   }
@@ -194,26 +250,34 @@ class SceneBuilder {
   [[nodiscard]] Eigen::Vector3d onFloor(const Eigen::Vector2d& p_map) const {
     return {style_.map_scale * p_map.x(), style_.map_scale * p_map.y(), 0.0};
   }
-  [[nodiscard]] engine::Cone cone(const Eigen::Vector3d& tip, const engine::Rgba& colour) const {
-    return {
-        .tip = tip, .height = style_.cone_height, .radius = style_.cone_radius, .colour = colour};
+  [[nodiscard]] engine::Cone cone(const Eigen::Vector3d& tip, const engine::Rgba& colour,
+                                  std::uint64_t tag) const {
+    return {.tip = tip,
+            .height = style_.cone_height,
+            .radius = style_.cone_radius,
+            .colour = colour,
+            .tag = tag};
   }
   /// Half the ellipsoid's height as the viewer sees it.
   [[nodiscard]] double reach(const engine::Ellipsoid& ellipsoid) const {
     return (ellipsoid.axes.transpose() * style_.viewer_up).norm();
   }
-  void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const engine::Rgba& hue) {
-    scene_.lines.push_back({.points = {from, to}, .width_px = 1.1, .colour = hue});
+  void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const engine::Rgba& hue,
+               std::uint64_t tag) {
+    scene_.lines.push_back({.points = {from, to}, .width_px = 1.1, .colour = hue, .tag = tag});
   }
 
-  /// The pair's ellipsoid; magenta and in its halo where the pair is flagged.
+  /// The pair's ellipsoid; in the flags' colour and, unless they are many, in its halo where the
+  /// pair is flagged.
   void addEllipsoid(const slam::FeaturePair& pair, engine::Ellipsoid ellipsoid) {
-    if (isDoubtful(pair)) ellipsoid.colour = colour::kTentativeEllipsoid;
+    ellipsoid.tag = tagOf(What::pair, pair);
+    if (isDoubtful(pair)) ellipsoid.colour = colours_.tentative_ellipsoid;
     if (const AlarmMarks::Mark* mark = alarms_.pair(id(pair.i), id(pair.j))) {
-      ellipsoid.colour = colour::kFlaggedEllipsoid;
-      if (mark->last_good) {
+      ellipsoid.colour = colours_.flagged_ellipsoid;
+      if (mark->last_good && !manyFlagged()) {
         engine::Ellipsoid halo = relativeEllipsoid(*mark->last_good, ellipsoid.centre, style_);
-        halo.colour = colour::kHalo;
+        halo.colour = colours_.halo;
+        halo.tag = tagOf(What::halo, pair);
         scene_.ellipsoids.push_back(halo);
       }
     }
@@ -222,16 +286,19 @@ class SceneBuilder {
 
   /// The k-sigma ellipse of a position's covariance P (m², map), as an outline on the floor.
   void addRing(const Eigen::Vector2d& centre, const Eigen::Matrix2d& P, const engine::Rgba& colour,
-               double width_px = 1.6) {
+               std::uint64_t tag, double width_px = 1.6) {
     const double scale = style_.map_scale;
-    scene_.lines.push_back(
-        floorRing(scale * centre, scale * scale * P, style_.axis.k, colour, width_px));
+    engine::Polyline ring =
+        floorRing(scale * centre, scale * scale * P, style_.axis.k, colour, width_px);
+    ring.tag = tag;
+    scene_.lines.push_back(std::move(ring));
   }
 
   const Belief& belief_;
   const slam::Snapshot& snapshot_;
   const AlarmMarks& alarms_;
   const SceneStyle& style_;
+  const Palette& colours_;
   engine::Scene scene_;
 };
 
@@ -243,8 +310,9 @@ engine::Ellipsoid relativeEllipsoid(const Eigen::Matrix2d& P_d, const Eigen::Vec
   const Eigen::Matrix2d directions = principal.directions();
   const double major = style.map_scale * style.axis.semiAxis(principal.eigenvalues.x());
   const double minor = style.map_scale * style.axis.semiAxis(principal.eigenvalues.y());
-  engine::Ellipsoid ellipsoid{
-      .centre = centre, .axes = Eigen::Matrix3d::Zero(), .colour = colour::kEllipsoid};
+  engine::Ellipsoid ellipsoid{.centre = centre,
+                              .axes = Eigen::Matrix3d::Zero(),
+                              .colour = paletteOf(style.palette).ellipsoid};
   ellipsoid.axes.block<2, 1>(0, 0) = major * directions.col(0);
   ellipsoid.axes.block<2, 1>(0, 1) = minor * directions.col(1);
   ellipsoid.axes(2, 2) = minor;
@@ -270,13 +338,13 @@ engine::Polyline floorRing(const Eigen::Vector2d& centre, const Eigen::Matrix2d&
 engine::PlanarPointsPtr pointsOf(const slam::Snapshot& snapshot) {
   if (snapshot.diagonal_only) return nullptr;
   return std::make_shared<engine::PlanarPoints>(snapshot.features, snapshot.covariance.packed(),
-                                                slam::Snapshot::row(0));
+                                                slam::Snapshot::row(0), snapshot.ids);
 }
 
 std::size_t ellipsoidCount(const engine::Scene& scene, const engine::FrameStats::Pairs& drawn) {
-  const auto own =
-      std::count_if(scene.ellipsoids.begin(), scene.ellipsoids.end(),
-                    [](const engine::Ellipsoid& e) { return e.colour.a != colour::kHalo.a; });
+  const auto own = std::count_if(
+      scene.ellipsoids.begin(), scene.ellipsoids.end(),
+      [](const engine::Ellipsoid& e) { return GlyphMeaning::ofTag(e.tag).what != What::halo; });
   return static_cast<std::size_t>(own) + drawn.chosen - drawn.not_finite;
 }
 
@@ -288,10 +356,11 @@ engine::Scene buildScene(const Belief& belief, const SceneStyle& style) {
     builder.addPairsOnDevice();
     return builder.take();
   }
-  const slam::PairSelection selection = slam::selectPairs(
-      belief.snapshot, style.mode, belief.clusters, {.alarms = belief.alarms.pairs()});
-  for (const slam::FeaturePair& pair : selection.pairs) builder.addPair(pair);
-  for (const slam::ClusterPair& pair : selection.cluster_pairs) builder.addClusterPair(pair);
+  if (style.mode == slam::PairMode::min_mean_max) {
+    for (const slam::ClusterPair& pair : belief.cluster_pairs) builder.addClusterPair(pair);
+  } else {
+    builder.addFlaggedPairs();
+  }
   return builder.take();
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
+#include <span>
 #include <vector>
 
 #include "apps/lib/view/alarm_marks.hpp"
+#include "apps/lib/view/pair_thinning.hpp"
+#include "apps/lib/view/palette.hpp"
 #include "apps/lib/view/path_trace.hpp"
 #include "engine/render/options.hpp"
 #include "engine/scene/glyphs.hpp"
@@ -22,8 +24,8 @@ struct SceneStyle {
   slam::PairMode mode = slam::PairMode::all;
   slam::AxisScale axis{};
   std::vector<slam::FeatureId> selected{};  ///< for PairMode::selected
-  std::uint32_t most_pairs = 0;  ///< of the mode's pairs those with the largest P_d; 0: all
-  double least_area = 0.0;       ///< m², √det P_d; smaller pairs are not drawn
+  PairThinning thinning{};
+  PaletteName palette = PaletteName::paper;
   double map_scale = 1.0;
   bool covariance_rings = false;  ///< k-sigma ellipses of robot and features on the floor
   bool labels = true;             ///< feature ids
@@ -39,32 +41,12 @@ struct SceneStyle {
   return axis == slam::Axis::eigenvalue ? 25.0 : 1.0;
 }
 
-/// The colours of the paper (section 3.2).
-namespace colour {
-inline constexpr engine::Rgba kRobot{0.12F, 0.80F, 0.22F, 1.0F};
-inline constexpr engine::Rgba kHeading{1.00F, 0.84F, 0.05F, 1.0F};
-inline constexpr engine::Rgba kFeature{0.05F, 0.85F, 0.95F, 1.0F};
-inline constexpr engine::Rgba kTentative{0.72F, 0.80F, 0.82F, 0.55F};
-inline constexpr engine::Rgba kPair{1.00F, 0.90F, 0.10F, 0.60F};
-inline constexpr engine::Rgba kEllipsoid{0.90F, 0.12F, 0.10F, 1.0F};
-// Of pairs with a tentative feature.
-inline constexpr engine::Rgba kTentativePair{1.00F, 0.90F, 0.10F, 0.25F};
-inline constexpr engine::Rgba kTentativeEllipsoid{0.90F, 0.12F, 0.10F, 0.35F};
-// What the audit flags (spec visualisation.md, "Flags").
-inline constexpr engine::Rgba kFlagged{0.96F, 0.05F, 0.86F, 1.0F};
-inline constexpr engine::Rgba kFlaggedPair{0.96F, 0.05F, 0.86F, 0.60F};
-inline constexpr engine::Rgba kFlaggedEllipsoid{0.96F, 0.05F, 0.86F,
-                                                0.60F};  // a halo shows through
-inline constexpr engine::Rgba kHaloRing{1.00F, 0.75F, 0.98F, 0.55F};
-inline constexpr engine::Rgba kOwnError{1.0F, 1.0F, 1.0F, 0.9F};
-inline constexpr engine::Rgba kHalo{1.00F, 0.62F, 0.97F, 0.38F};
-}  // namespace colour
-
 /// The features and their covariance as the device takes them; null where only the diagonal of P is
 /// known.
 [[nodiscard]] engine::PlanarPointsPtr pointsOf(const slam::Snapshot& snapshot);
 
-/// Where a map has more pairs, their lines are left out: they would hide everything else.
+/// Where a map has more pairs, their lines are left out: they would hide everything else. Where
+/// more of them are flagged, their halos too.
 inline constexpr std::size_t kMostPairLines = 1000;
 
 /// What is to be shown of a moment.
@@ -72,7 +54,8 @@ struct Belief {
   const slam::Snapshot& snapshot;
   engine::PlanarPointsPtr points;  ///< pointsOf(snapshot), made once a snapshot
   const PathTrace& path;
-  const slam::Clustering& clusters;  ///< of this snapshot
+  const slam::Clustering& clusters;                  ///< of this snapshot
+  std::span<const slam::ClusterPair> cluster_pairs;  ///< of these, for mode min-mean-max
   const AlarmMarks& alarms;
 };
 
@@ -83,7 +66,8 @@ struct Belief {
 ///
 /// Tentative features are pale, with a question mark after their id, their pairs faint.
 ///
-/// What the audit flags is magenta in every mode, in a faint halo of its last good size; mode
+/// Every glyph's tag says what it stands for (GlyphMeaning). What the audit flags has a colour of
+/// its own in every mode, in a faint halo of its last good size; mode
 /// alarms shows no other features and pairs.
 ///
 /// An ellipsoid's horizontal semi-axes are those of P_d by `axis`, the vertical one is as long as

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "apps/lib/view/alarm_lines.hpp"
+#include "apps/lib/view/feature_labels.hpp"
+#include "engine/window/window.hpp"
 #include "slam/laser_lab.hpp"
 
 namespace slamscope::apps {
@@ -35,6 +38,7 @@ std::optional<RunTruth> truthFor(const MonitorOptions& options) {
 Viewer::Choices choicesOf(const MonitorOptions& options) {
   return {.mode = options.mode,
           .axis = options.axis,
+          .palette = options.palette,
           .covariance_rings = options.covariance_rings,
           .own_error = options.own_error,
           .labels = options.labels,
@@ -43,11 +47,21 @@ Viewer::Choices choicesOf(const MonitorOptions& options) {
           .message = {}};
 }
 
-SlamLayer::SlamLayer(const MonitorOptions& options, const Viewer::Choices& choices)
+std::shared_ptr<engine::Gpu> gpuFor(const MonitorOptions& options) {
+  return std::make_shared<engine::Gpu>(
+      engine::GpuOptions{.device = options.device,
+                         .validation = options.validation,
+                         .instance_extensions = options.window ? engine::windowInstanceExtensions()
+                                                               : std::vector<std::string>{}});
+}
+
+SlamLayer::SlamLayer(const MonitorOptions& options, const Viewer::Choices& choices,
+                     std::shared_ptr<engine::Gpu> gpu)
     : options_(options),
       choices_(choices),
       feed_(openSlamFeed(options.slam, options.simulation)),
-      slam_(*feed_, options.cluster_cut) {
+      slam_(*feed_, options.cluster_cut),
+      cluster_pairs_(std::move(gpu)) {
   if (options.audit) audit_.emplace(*feed_, options.audit_options);
 }
 
@@ -99,8 +113,8 @@ SceneStyle SlamLayer::style(const Place& place, const engine::Pinhole& camera) c
   return {.mode = choices_.mode,
           .axis = choices_.axis,
           .selected = options_.selected,
-          .most_pairs = options_.most_pairs,
-          .least_area = options_.least_area,
+          .thinning = options_.thinning,
+          .palette = choices_.palette,
           .map_scale = place.map_scale,
           .covariance_rings = choices_.covariance_rings,
           .labels = choices_.labels,
@@ -118,11 +132,23 @@ const engine::PlanarPointsPtr& SlamLayer::points() {
   return points_;
 }
 
+std::span<const slam::ClusterPair> SlamLayer::clusterPairs() {
+  if (choices_.mode != slam::PairMode::min_mean_max) return {};
+  return cluster_pairs_.of(slam_.newest(), points(), slam_.clusters());
+}
+
 std::string SlamLayer::pairsText(const engine::Scene& scene) const {
   const std::size_t own = ellipsoidCount(scene);
   if (!scene.pairs) return thousands(own) + " ellipsoids";
   if (drawn_.all == 0) return thousands(scene.pairs->points->pairCount()) + " pairs";
-  return thousands(drawn_.drawn + own) + " of " + thousands(drawn_.all) + " pairs drawn";
+  std::string text =
+      thousands(drawn_.drawn + own) + " of " + thousands(drawn_.all) + " pairs drawn";
+  if (drawn_.greatest_growth > 0.0F) {
+    char growth[48];
+    std::snprintf(growth, sizeof growth, ", greatest growth × %.3g", drawn_.greatest_growth);
+    text += growth;
+  }
+  return text;
 }
 
 std::string SlamLayer::runLine(const engine::Scene& scene) const {
@@ -150,6 +176,9 @@ std::vector<std::string> SlamLayer::statusLines(const engine::Scene& scene,
       all.emplace_back("only the diagonal of P was logged: relative covariances are unknown");
     }
     if (scene.pairs && !drawn_.problem.empty()) all.emplace_back(drawn_.problem);
+    if (choices_.mode == slam::PairMode::min_mean_max && !cluster_pairs_.problem().empty()) {
+      all.emplace_back(cluster_pairs_.problem());
+    }
   } else {
     all.emplace_back("no record of the filter yet");
   }
@@ -166,6 +195,7 @@ Legend SlamLayer::legend(const Place& place) const {
   const slam::Clustering& clusters = slam_.clusters();
   return {.mode = choices_.mode,
           .axis = choices_.axis,
+          .palette = choices_.palette,
           .map_scale = place.map_scale,
           .covariance_rings = choices_.covariance_rings,
           .own_error = choices_.own_error,
@@ -173,8 +203,7 @@ Legend SlamLayer::legend(const Place& place) const {
           .clusters = clustered() ? clusters.count() : 0,
           .cluster_cut = clusters.cut,
           .automatic_cut = clusters.automatic,
-          .most_pairs = options_.most_pairs,
-          .least_area = options_.least_area,
+          .thinning = options_.thinning,
           .lines_left_out = points_ && points_->pairCount() > kMostPairLines,
           .flagged = choices_.mode == slam::PairMode::alarms || !alarms_.empty(),
           .px_per_m = 1.0 / place.metres_per_px};
@@ -186,7 +215,8 @@ void SlamLayer::addOwnError(engine::Scene& scene, const Place& place) const {
   const auto add = [&](const Eigen::Vector2d& p_map) {
     const Eigen::Vector2d p = place.map_scale * p_map;
     if (const auto P = place.own_error({p.x(), p.y(), 0.0})) {
-      scene.lines.push_back(floorRing(p, *P, choices_.axis.k, colour::kOwnError));
+      scene.lines.push_back(
+          floorRing(p, *P, choices_.axis.k, paletteOf(choices_.palette).own_error));
     }
   };
   add(snapshot.pose.head<2>());
@@ -202,6 +232,7 @@ engine::Scene SlamLayer::compose(const std::optional<Place>& place, const engine
                         .points = points(),
                         .path = slam_.path(),
                         .clusters = slam_.clusters(),
+                        .cluster_pairs = clusterPairs(),
                         .alarms = alarms_},
                        style(*place, camera));
     if (choices_.own_error) addOwnError(scene, *place);
@@ -211,7 +242,8 @@ engine::Scene SlamLayer::compose(const std::optional<Place>& place, const engine
   if (choices_.legend) addLegend(scene, legend(*place), camera, fonts_);
   if (audit_) {
     const bool asked = choices_.mode == slam::PairMode::alarms;
-    addAlarms(scene, alarmLines(audit_->newest(), slam_.newest()->time, asked), camera, fonts_);
+    addAlarms(scene, alarmLines(audit_->newest(), slam_.newest()->time, asked), choices_.palette,
+              camera, fonts_);
   }
   spreadLabels(scene, place->view, fonts_);
   return scene;

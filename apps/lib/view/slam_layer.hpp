@@ -12,6 +12,7 @@
 #include "apps/lib/run_truth.hpp"
 #include "apps/lib/slam_feed.hpp"
 #include "apps/lib/view/alarm_marks.hpp"
+#include "apps/lib/view/cluster_pairs.hpp"
 #include "apps/lib/view/legend.hpp"
 #include "apps/lib/view/monitor_options.hpp"
 #include "apps/lib/view/run_clock.hpp"
@@ -26,12 +27,16 @@ namespace slamscope::apps {
 
 [[nodiscard]] Viewer::Choices choicesOf(const MonitorOptions& options);
 
+/// The device that is asked for, for a window too where one is.
+[[nodiscard]] std::shared_ptr<engine::Gpu> gpuFor(const MonitorOptions& options);
+
 /// What a viewer lays over its pictures, whichever camera they come from: the filter's state at a
 /// frame's time as glyphs, status lines, legend and what the audit says.
 class SlamLayer {
  public:
-  /// Opens the feed. Both arguments must outlive it.
-  SlamLayer(const MonitorOptions& options, const Viewer::Choices& choices);
+  /// Opens the feed. `options` and `choices` must outlive it. `gpu` sums pairs of clusters up.
+  SlamLayer(const MonitorOptions& options, const Viewer::Choices& choices,
+            std::shared_ptr<engine::Gpu> gpu);
 
   /// The time of the first frame: lays it on the run's start unless one clock stamped both. Returns
   /// a line for people where it did.
@@ -64,6 +69,8 @@ class SlamLayer {
 
   [[nodiscard]] const slam::SnapshotPtr& newest() const { return slam_.newest(); }
   [[nodiscard]] const std::optional<AuditWatch>& audit() const { return audit_; }
+  /// Of what the scene composed last shows.
+  [[nodiscard]] const AlarmMarks& alarms() const { return alarms_; }
   [[nodiscard]] const SlamFeed& feed() const { return *feed_; }
   [[nodiscard]] std::chrono::nanoseconds runTime() const { return run_time_; }
   /// Share of the run between truth's start and end that was shown.
@@ -71,6 +78,7 @@ class SlamLayer {
 
  private:
   [[nodiscard]] const engine::PlanarPointsPtr& points();
+  [[nodiscard]] std::span<const slam::ClusterPair> clusterPairs();
   [[nodiscard]] std::string pairsText(const engine::Scene& scene) const;
   [[nodiscard]] SceneStyle style(const Place& place, const engine::Pinhole& camera) const;
   /// Of the registration, at robot and features.
@@ -94,6 +102,7 @@ class SlamLayer {
   std::chrono::nanoseconds run_time_{};
   slam::SnapshotPtr sent_;  ///< whose points `points_` are
   engine::PlanarPointsPtr points_;
+  ClusterPairs cluster_pairs_;
   engine::FrameStats::Pairs drawn_;
   engine::FontAtlas fonts_;
 };

@@ -55,20 +55,21 @@ StereoPicture::StereoPicture(std::shared_ptr<engine::Gpu> gpu, const tracking::R
     : gpu_(std::move(gpu)),
       options_(options),
       cameras_(eyeCameras(rig, options)),
+      displays_{rig.cameras[0].display, rig.cameras[1].display},
       offscreen_(gpu_, cameras_[0].pinhole.width, cameras_[0].pinhole.height, 2) {
   for (std::size_t eye = 0; eye < views_.size(); ++eye) views_[eye].camera = cameras_[eye].pinhole;
-  wearLenses(rig);
+  wearLenses();
 }
 
-void StereoPicture::wearLenses(const tracking::Rig& rig) {
+void StereoPicture::wearLenses() {
   std::array<engine::Lens, 2> lenses;
   for (std::size_t eye = 0; eye < lenses.size(); ++eye) {
-    const DisplayLens& display = rig.cameras[eye].display;
+    const DisplayLens& display = displays_[eye];
     if (gpu_->device().type != "cpu") {
       lenses[eye] = deviceLens(display);
     } else if (!display.plain()) {
       const engine::Pinhole& size = cameras_[eye].pinhole;
-      lenses_[eye].emplace(lensResampler(display, size.width, size.height));
+      resamplers_[eye].emplace(lensResampler(display, size.width, size.height));
     }
   }
   offscreen_.wear(lenses);
@@ -85,14 +86,23 @@ void StereoPicture::takeFrames(const tracking::StereoFrame& frames) {
 const engine::Image& StereoPicture::draw(const engine::Scene& scene,
                                          const engine::RenderOptions& options) {
   offscreen_.draw(views_, scene, options, eyes_);
-  for (std::size_t eye = 0; eye < lenses_.size(); ++eye) {
-    if (!lenses_[eye]) continue;
-    (*lenses_[eye])(eyes_[eye], shown_[eye]);
+  for (std::size_t eye = 0; eye < resamplers_.size(); ++eye) {
+    if (!resamplers_[eye]) continue;
+    (*resamplers_[eye])(eyes_[eye], shown_[eye]);
     std::swap(eyes_[eye], shown_[eye]);
   }
   const bool swapped = options_.swap_eyes;
   layOut(options_.layout, eyes_[swapped ? 1 : 0], eyes_[swapped ? 0 : 1], both_);
   return both_;
+}
+
+EyePixel StereoPicture::underLens(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2i size(cameras_[0].pinhole.width, cameras_[0].pinhole.height);
+  EyePixel shown = eyePixel(options_.layout, size, pixel);
+  if (options_.swap_eyes) shown.eye = 1 - shown.eye;
+  const auto eye = static_cast<std::size_t>(shown.eye);
+  shown.pixel = engine::drawnPixel(deviceLens(displays_[eye]), size, shown.pixel);
+  return shown;
 }
 
 }  // namespace slamscope::apps

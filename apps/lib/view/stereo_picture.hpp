@@ -37,17 +37,21 @@ class StereoPicture {
 
   const engine::Image& draw(const engine::Scene& scene, const engine::RenderOptions& options);
   [[nodiscard]] const engine::Image& drawn() const { return both_; }
+  /// Which of views() a pixel of drawn() shows, and where in what the engine drew of it.
+  [[nodiscard]] EyePixel underLens(const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] engine::Offscreen& offscreen() { return offscreen_; }
   [[nodiscard]] const engine::FrameStats& lastStats() const { return offscreen_.lastStats(); }
 
  private:
-  void wearLenses(const tracking::Rig& rig);
+  void wearLenses();
 
   std::shared_ptr<engine::Gpu> gpu_;
   StereoPictureOptions options_;
   std::array<OutputCamera, 2> cameras_;
+  std::array<tracking::DisplayLens, 2> displays_;
   std::array<engine::View, 2> views_;
   engine::Offscreen offscreen_;
-  std::array<std::optional<Resampler>, 2> lenses_;  // where the device doesn't do it
+  std::array<std::optional<Resampler>, 2> resamplers_;  // where the device doesn't do it
   std::vector<engine::Image> eyes_;
   std::array<engine::Image, 2> shown_;  // through the lenses
   engine::Image both_;

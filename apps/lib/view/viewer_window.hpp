@@ -13,8 +13,9 @@ namespace slamscope::apps {
 /// (Ctrl-C). At the end of the input the last picture stays. Returns when the window is closed,
 /// saying whether the input had ended.
 ///
-/// Keys: m mode, a axis, + and - gain, e covariance rings, l labels, g legend, f fade, space pause,
-/// . one frame, s screenshot, h keys, q or Esc quit. A click says which feature or pair is there.
+/// Keys: m mode, a axis, + and - gain, e covariance rings, l labels, g legend, c colours, f fade,
+/// space pause, . one frame, s screenshot, h keys, q or Esc quit. A click says which feature or
+/// pair is there.
 ///
 /// `screen`: full screen on that one of the list of monitors.
 [[nodiscard]] Viewer::Ending runInWindow(Viewer& viewer, const std::string& title,

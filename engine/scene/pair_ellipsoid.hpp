@@ -3,10 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
 
 #include "engine/scene/pair_glyphs.hpp"
-#include "engine/scene/view.hpp"
 
 namespace slamscope::engine {
 
@@ -17,17 +15,5 @@ namespace slamscope::engine {
 /// The ellipsoid that stands for two points in the scene, as the device makes it but in double
 /// precision.
 [[nodiscard]] Ellipsoid pairEllipsoid(const PairGlyphs& glyphs, std::uint32_t i, std::uint32_t j);
-
-/// Points i < j.
-struct PickedPair {
-  std::uint32_t i = 0, j = 0;
-  double depth = 0.0;  ///< z in the eye, m
-};
-
-/// The pair whose ellipsoid is seen at a pixel (OpenCV's convention): of the chosen ones that the
-/// pixel's ray meets the nearest, none where it meets none. The same whichever way they are drawn.
-/// Goes over all pairs: a tenth of a second for half a million, for a click and not for a frame.
-[[nodiscard]] std::optional<PickedPair> pickPair(const PairGlyphs& glyphs, const View& view,
-                                                 const Eigen::Vector2d& pixel);
 
 }  // namespace slamscope::engine
