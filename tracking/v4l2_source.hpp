@@ -15,11 +15,12 @@ class FrameSource;
 struct V4l2Options {
   int width = 1280, height = 720;  ///< px
   double fps = 30;                 ///< frames a second; 0: the driver's choice
-  std::string pixel_format;  ///< YUYV, MJPG or GREY; empty: the first of these that the camera has
-  std::optional<int> focus;  ///< fixed focus, driver's units; not given: left alone
+  std::string
+      pixel_format{};  ///< YUYV, MJPG or GREY; empty: the first of these that the camera has
+  std::optional<int> focus{};  ///< fixed focus, driver's units; not given: left alone
   /// Fixed exposure; not given: the camera's own automatic, and then frames are stamped as if it
   /// were 0.
-  std::optional<std::chrono::microseconds> exposure;
+  std::optional<std::chrono::microseconds> exposure{};
   /// Rolling shutter: from the first row to the last. Global: 0.
   std::chrono::microseconds readout{0};
   std::chrono::milliseconds timeout{2000};  ///< without a frame for so long: error

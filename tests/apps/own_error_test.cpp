@@ -48,6 +48,8 @@ struct UncertainHead {
   }
 };
 
+constexpr engine::Rgba kRingColour{};
+
 TEST(OwnError, RingOnTheFloorLooksLikeTheCovarianceOfThePixel) {
   const UncertainHead head;
   const Vector3d p(0.4, 0.3, 0);
@@ -56,12 +58,12 @@ TEST(OwnError, RingOnTheFloorLooksLikeTheCovarianceOfThePixel) {
   };
   const Matrix2d S = tracking::overlayCovariance(head.eye, head.motion, head.map, p).value();
   const Matrix2d P = tracking::overlayCovarianceOnFloor(head.eye, head.motion, head.map, p).value();
-  const engine::Polyline ring = floorRing(p.head<2>(), P, 3, colour::kOwnError);
+  const engine::Polyline ring = floorRing(p.head<2>(), P, 3, kRingColour);
   const Range range = rangeOf(ring, pixel(p), S, pixel);
   EXPECT_NEAR(range.least, 9, 0.2);
   EXPECT_NEAR(range.greatest, 9, 0.2);
   const engine::Polyline round =
-      floorRing(p.head<2>(), P.trace() / 2 * Matrix2d::Identity(), 3, colour::kOwnError);
+      floorRing(p.head<2>(), P.trace() / 2 * Matrix2d::Identity(), 3, kRingColour);
   EXPECT_GT(rangeOf(round, pixel(p), S, pixel).greatest, 12) << "a circle must not pass";
 }
 
@@ -80,7 +82,7 @@ TEST(OwnError, OfAnOverheadCameraLikewise) {
   };
   const Matrix2d S = tracking::overlayCovariance(camera, registration, p).value();
   const Matrix2d P = tracking::overlayCovarianceOnFloor(camera, registration, p).value();
-  const Range range = rangeOf(floorRing(p.head<2>(), P, 2, colour::kOwnError), pixel(p), S, pixel);
+  const Range range = rangeOf(floorRing(p.head<2>(), P, 2, kRingColour), pixel(p), S, pixel);
   EXPECT_NEAR(range.least, 4, 0.1);
   EXPECT_NEAR(range.greatest, 4, 0.1);
 }

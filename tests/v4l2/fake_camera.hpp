@@ -17,7 +17,7 @@ struct FakeCamera {
 
   std::vector<std::uint32_t> formats;  ///< that it offers (V4L2_PIX_FMT_…); the first is its own
   int width = 640, height = 480;       ///< the only size it has
-  std::map<std::uint32_t, int> controls;  ///< id and value; others are refused (EINVAL)
+  std::map<std::uint32_t, int> controls{};  ///< id and value; others are refused (EINVAL)
   /// What it sends: frame `sequence` in a format.
   std::function<Bytes(std::uint32_t sequence, std::uint32_t format)> picture;
   std::int64_t interval_us = 33'333;

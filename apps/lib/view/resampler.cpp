@@ -10,22 +10,6 @@
 namespace slamscope::apps {
 namespace {
 
-/// As OpenCV remaps quickest: whole pixels, and an index of 32 × 32 places between them.
-struct FixedMap {
-  cv::Mat whole, between;
-
-  explicit FixedMap(const engine::LookupMap& map) {
-    const cv::Mat uv(map.height, map.width, CV_32FC2, const_cast<float*>(map.uv_px.data()));
-    cv::convertMaps(uv, cv::noArray(), whole, between, CV_16SC2);
-  }
-  void remap(const cv::Mat& from, cv::Mat& to) const {
-    cv::remap(from, to, whole, between, cv::INTER_LINEAR, cv::BORDER_CONSTANT,
-              cv::Scalar(0, 0, 0, 255));
-  }
-  [[nodiscard]] int width() const { return whole.cols; }
-  [[nodiscard]] int height() const { return whole.rows; }
-};
-
 cv::Mat pixelsOf(engine::Image& image, int width, int height) {
   image.width = width;
   image.height = height;
@@ -37,6 +21,22 @@ cv::Mat pixelsOf(engine::Image& image, int width, int height) {
 }  // namespace
 
 struct Resampler::Maps {
+  /// As OpenCV remaps quickest: whole pixels, and an index of 32 × 32 places between them.
+  struct FixedMap {
+    cv::Mat whole, between;
+
+    explicit FixedMap(const engine::LookupMap& map) {
+      const cv::Mat uv(map.height, map.width, CV_32FC2, const_cast<float*>(map.uv_px.data()));
+      cv::convertMaps(uv, cv::noArray(), whole, between, CV_16SC2);
+    }
+    void remap(const cv::Mat& from, cv::Mat& to) const {
+      cv::remap(from, to, whole, between, cv::INTER_LINEAR, cv::BORDER_CONSTANT,
+                cv::Scalar(0, 0, 0, 255));
+    }
+    [[nodiscard]] int width() const { return whole.cols; }
+    [[nodiscard]] int height() const { return whole.rows; }
+  };
+
   std::vector<FixedMap> maps;
 };
 
@@ -53,7 +53,7 @@ Resampler& Resampler::operator=(Resampler&&) noexcept = default;
 void Resampler::operator()(const engine::Image& picture, engine::Image& result) const {
   const cv::Mat from(picture.height, picture.width, CV_8UC4,
                      const_cast<std::uint8_t*>(picture.rgba.data()));
-  const std::vector<FixedMap>& maps = maps_->maps;
+  const auto& maps = maps_->maps;
   cv::Mat to = pixelsOf(result, maps[0].width(), maps[0].height());
   if (maps.size() == 1) return maps[0].remap(from, to);
   to.setTo(cv::Scalar(0, 0, 0, 255));
@@ -69,7 +69,7 @@ void Resampler::operator()(const tracking::Frame& frame, engine::Image& result) 
   if (maps_->maps.size() != 1) throw std::logic_error("frames have one map for all colours");
   const cv::Mat bgr(frame.height, frame.width, CV_8UC3,
                     const_cast<std::uint8_t*>(frame.bgr.data()));
-  const FixedMap& map = maps_->maps[0];
+  const auto& map = maps_->maps[0];
   cv::Mat straight;
   map.remap(bgr, straight);
   cv::cvtColor(straight, pixelsOf(result, map.width(), map.height()), cv::COLOR_BGR2RGBA);

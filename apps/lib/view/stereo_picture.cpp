@@ -101,7 +101,7 @@ EyePixel StereoPicture::underLens(const Eigen::Vector2d& pixel) const {
   EyePixel shown = eyePixel(options_.layout, size, pixel);
   if (options_.swap_eyes) shown.eye = 1 - shown.eye;
   const auto eye = static_cast<std::size_t>(shown.eye);
-  shown.pixel = engine::drawnPixel(deviceLens(displays_[eye]), size, shown.pixel);
+  shown.pixel = engine::drawnPixel(deviceLens(displays_[eye]), size.cast<double>(), shown.pixel);
   return shown;
 }
 
