@@ -165,7 +165,7 @@ TEST_P(PairPicture, PairsInViewAreThoseOfPointsInThePictureOfAnyView) {
 }
 
 TEST_P(PairPicture, OfPairsInViewTheMostAreFoundAnewWhereTheViewerMoves) {
-  PairGlyphs glyphs = someMap(9, 0.02);
+  PairGlyphs glyphs = someMap(20, 0.02);
   glyphs.choice = {.most = 3, .in_view = true};
   const View near = lookingAt(kFloorCamera, {-0.2, -0.9, 1.0}, {-0.2, 0.0, 0.0});
   const View far = lookingAt(kFloorCamera, {0.0, -2.6, 2.6}, {0.0, 0.0, 0.0});
