@@ -205,6 +205,11 @@ std::vector<int> cornersByTag(const Bundle& bundle) {
   return counts;
 }
 
+[[noreturn]] void refuseAsContradictory(const std::string& evidence) {
+  throw std::runtime_error("tags: the pictures contradict each other (" + evidence +
+                           "): is a size or the camera's calibration wrong?");
+}
+
 /// Tags of which more corners had to be left out than is chance.
 void refuseMisfits(const TagLayout& layout, const std::vector<int>& all,
                    const std::vector<int>& kept) {
@@ -213,6 +218,11 @@ void refuseMisfits(const TagLayout& layout, const std::vector<int>& all,
     if (kept[i] < kLeastKept * all[i]) ids.insert(layout.tags[i].id);
   }
   if (ids.empty()) return;
+  // Of most tags at once it isn't their fault.
+  if (2 * ids.size() > all.size()) {
+    refuseAsContradictory(std::to_string(ids.size()) + " of " + std::to_string(all.size()) +
+                          " tags fit the others in few of them only");
+  }
   throw std::runtime_error("tags: " + joined(ids) +
                            " fit the others in few pictures only: of another size than stated, or "
                            "moved during the walk?");
@@ -220,12 +230,9 @@ void refuseMisfits(const TagLayout& layout, const std::vector<int>& all,
 
 void refuseContradiction(double residual_px) {
   if (residual_px < kMostResidual_px) return;
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(),
-                "tags: the pictures contradict each other (residual %.2f px): is a size or the "
-                "camera's calibration wrong?",
-                residual_px);
-  throw std::runtime_error(text.data());
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "residual %.2f px", residual_px);
+  refuseAsContradictory(text.data());
 }
 
 void hintAt(RoomCalibration& result) {

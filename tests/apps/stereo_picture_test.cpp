@@ -13,7 +13,7 @@ constexpr int kWidth = 160, kHeight = 120;
 
 /// Waves of a different length in each colour: smooth, and nowhere the same for long.
 tracking::Frame waves() {
-  tracking::Frame frame{.width = kWidth, .height = kHeight, .bgr = {}, .source = {}};
+  tracking::Frame frame{.source = {}, .width = kWidth, .height = kHeight, .bgr = {}};
   for (int row = 0; row < kHeight; ++row) {
     for (int column = 0; column < kWidth; ++column) {
       for (const double length : {31.0, 23.0, 41.0}) {
