@@ -12,6 +12,7 @@
 #include "tests/bench/ekf_drive.hpp"
 #include "tests/bench/machine_limit.hpp"
 #include "tests/bench/textbook_ekf.hpp"
+#include "tests/bench/timing.hpp"
 
 namespace slamscope::slam::bench {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <thread>
 #include <vector>
@@ -32,16 +31,6 @@ multiplyAdd(long rounds) {
   for (const Vector4& sum : sums) total += sum;
   return total[0] + total[1] + total[2] + total[3];
 }
-
-}  // namespace
-
-double wallSeconds(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-namespace {
 
 /// `work` on `threads` threads at once.
 void onThreads(int threads, const std::function<void()>& work) {
