@@ -76,6 +76,17 @@ class BadInput(program.InAFolder):
         self.refused("monitor", "--picture", "none/p.png", "--frames", 2, saying="none")
 
 
+def await_connection(port, seconds=60.0):
+    """Until somebody is connected to a local port (state 1 in the kernel's table)."""
+    ends = time.monotonic() + seconds
+    while time.monotonic() < ends:
+        rows = pathlib.Path("/proc/net/tcp").read_text().splitlines()[1:]
+        if any(row.split()[1].endswith(f":{port:04X}") and row.split()[3] == "01" for row in rows):
+            return
+        time.sleep(0.1)
+    raise AssertionError(f"nobody connects to port {port}")
+
+
 class LiveFilter(program.InAFolder):
     """A filter that nobody here wrote for: 40 lines of plain Python."""
 
@@ -111,7 +122,8 @@ class LiveFilter(program.InAFolder):
         for start in range(2):
             # The filter runs before the viewer listens: it tries until somebody does.
             feeder = self.filter("--rate", 30, "--steps", 100000, "--tcp", f"127.0.0.1:{port}")
-            time.sleep(9.0)
+            await_connection(port)
+            time.sleep(5.0)
             if start == 0:
                 feeder.kill()
                 feeder.wait()

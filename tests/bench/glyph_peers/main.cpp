@@ -87,9 +87,9 @@ class Measurement {
   double shown(const std::string& name, const Case& c, std::size_t eyes,
                std::span<const std::uint8_t> rgba) const {
     if (!prefix_.empty() && c.changing) {
-      writePicture(prefix_ + "-" + name + "-" + std::to_string(c.n) + "-" + std::to_string(c.eyes) +
-                       ".ppm",
-                   eyes * kBenchCamera.width, rgba);
+      writePicture(
+          prefix_ + "-" + name + "-" + std::to_string(c.n) + "-" + std::to_string(c.eyes) + ".ppm",
+          eyes * kBenchCamera.width, rgba);
     }
     return covered(rgba);
   }

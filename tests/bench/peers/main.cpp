@@ -28,20 +28,21 @@ double ours(const Drive& drive, UpdateMode update) {
   EkfSlam filter(options);
   filter.observe(std::chrono::nanoseconds(0), drive.first);
   std::chrono::nanoseconds time{0};
-  return medianSeconds([&](std::size_t k) { filter.step(++time, drive.motion, drive.readings[k % kSteps]); },
-                       1.0);
+  return medianSeconds(
+      [&](std::size_t k) { filter.step(++time, drive.motion, drive.readings[k % kSteps]); }, 1.0);
 }
 
 double textbook(const Drive& drive) {
   Textbook filter(drive.first);
-  return medianSeconds([&](std::size_t k) { filter.step(drive.motion, drive.readings[k % kSteps]); }, 1.0);
+  return medianSeconds(
+      [&](std::size_t k) { filter.step(drive.motion, drive.readings[k % kSteps]); }, 1.0);
 }
 
 #ifdef SLAMSCOPE_MRPT
 double mrpt(const Drive& drive, MrptEkf::Settings settings) {
   MrptEkf filter(settings, drive.first);
-  const double seconds =
-      medianSeconds([&](std::size_t k) { filter.step(drive.motion, drive.readings[k % kSteps]); }, 1.0);
+  const double seconds = medianSeconds(
+      [&](std::size_t k) { filter.step(drive.motion, drive.readings[k % kSteps]); }, 1.0);
   if (filter.featureCount() != static_cast<int>(drive.first.size())) {
     std::printf("MRPT maps %d features of %zu: not compared\n", filter.featureCount(),
                 drive.first.size());
