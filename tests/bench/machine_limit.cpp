@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <thread>
 #include <vector>
 
 #include "tests/bench/ekf_drive.hpp"
+#include "tests/bench/timing.hpp"
 
 namespace slamscope::slam::bench {
 namespace {

@@ -19,7 +19,7 @@ tracking::Rig rigOf(int width, int height, bool lensed) {
 }
 
 tracking::Frame frameOf(int width, int height) {
-  tracking::Frame frame{.width = width, .height = height, .bgr = {}};
+  tracking::Frame frame{.source = {}, .width = width, .height = height, .bgr = {}};
   for (int i = 0; i < width * height * 3; ++i) {
     frame.bgr.push_back(static_cast<std::uint8_t>(100 + i % 97));
   }

@@ -23,7 +23,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/scene/pair_pick.hpp"
+#include "engine/scene/pair_ellipsoid.hpp"
 
 namespace slamscope::engine {
 
