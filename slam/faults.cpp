@@ -39,8 +39,8 @@ struct Catalogue {
 };
 
 const Catalogue& catalogue() {
-  static const Catalogue all;
-  return all;
+  static const Catalogue kAll;
+  return kAll;
 }
 
 std::size_t indexOf(std::string_view name) {

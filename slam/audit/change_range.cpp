@@ -23,7 +23,7 @@ ChangeRange rangeOfChange(const Transition& t, int rank, int most) {
   for (int count = std::min(rank + 3, limit);; count = std::min(2 * count, limit)) {
     const ProbedChange change = probeChange(t, 0, count);
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(change.Y);
-    const auto R = qr.matrixR();
+    const auto& R = qr.matrixR();
     const double drowned = 10.0 * t.noise * std::sqrt(static_cast<double>(t.size()) * t.size()) +
                            1e-9 * std::abs(R(0, 0));
     Eigen::Index r = 0;

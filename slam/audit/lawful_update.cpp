@@ -78,18 +78,18 @@ bool LawfulUpdate::confirmsRange(const Transition& t) {
 bool LawfulUpdate::shrinksAndStaysPositive(const Transition& t, const UpdateSweep& sweep) {
   const double tolerance = positiveTolerance(t.noise, sweep.states().size());
   // A row's own size after the update, which may be much smaller than before.
-  const auto sigmaAfter = [&](int state) {
+  const auto sigma_after = [&](int state) {
     return std::sqrt(std::max(0.0, t.sigma[state] * t.sigma[state] - sweep.diagonal()[state]));
   };
-  const Eigen::Vector3d robot(sigmaAfter(0), sigmaAfter(1), sigmaAfter(2));
+  const Eigen::Vector3d robot(sigma_after(0), sigma_after(1), sigma_after(2));
   rest_.resize(B_.size());
   for (Eigen::Index m = 0; m < B_.size(); ++m) {
     const Eigen::Index rows = B_.size() - m;
     Eigen::Map<Eigen::ArrayXd>(rest_.column(m) + m, rows) =
         Eigen::Map<const Eigen::ArrayXd>(T_.column(m) + m, rows) -
         Eigen::Map<const Eigen::ArrayXd>(M_.column(m) + m, rows);
-    const double size = sigmaAfter(sweep.states()[static_cast<std::size_t>(3 + m)]) + robot[m % 2] +
-                        B_.lever(m) * robot[2];
+    const double size = sigma_after(sweep.states()[static_cast<std::size_t>(3 + m)]) +
+                        robot[m % 2] + B_.lever(m) * robot[2];
     rest_(m, m) += tolerance * size * size;
   }
   factor_ = M_;

@@ -36,11 +36,11 @@ void ScaleTest::take(double q, int dof) {
   ++count_;
   dof_ += static_cast<std::uint64_t>(dof);
   sum_ += q;
-  static const std::array<double, kFactors.size()> logs = logarithms(kFactors);
+  static const std::array<double, kFactors.size()> kLogs = logarithms(kFactors);
   for (std::size_t k = 0; k < kFactors.size(); ++k) {
     const double f = kFactors[k];
-    above_[k] += -0.5 * dof * logs[k] + 0.5 * q / band_.high * (1.0 - 1.0 / f);
-    below_[k] += 0.5 * dof * logs[k] + 0.5 * q / band_.low * (1.0 - f);
+    above_[k] += -0.5 * dof * kLogs[k] + 0.5 * q / band_.high * (1.0 - 1.0 / f);
+    below_[k] += 0.5 * dof * kLogs[k] + 0.5 * q / band_.low * (1.0 - f);
   }
   raisePeak(peak_above_, above_);
   raisePeak(peak_below_, below_);

@@ -8,7 +8,7 @@ namespace slamscope::slam {
 std::span<const Signature> signatures() {
   using enum Law;
   // What rests on a pattern that only one mistake makes comes first.
-  static const std::vector<Signature> table{
+  static const std::vector<Signature> kTable{
       {"single-precision",
        symmetric,
        "asymmetry-of-rounding",
@@ -182,7 +182,7 @@ std::span<const Signature> signatures() {
        "assumed "
        "too small"},
   };
-  return table;
+  return kTable;
 }
 
 std::vector<const Signature*> fitting(const LawTallies& tallies) {
