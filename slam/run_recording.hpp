@@ -13,14 +13,9 @@
 #include "slam/laser_front_end.hpp"
 #include "slam/map_builder.hpp"
 #include "slam/recording.hpp"
+#include "slam/view_limits.hpp"
 
 namespace slamscope::slam {
-
-/// What a sensor of sightings surely sees: out to `range` (m), `half_angle` (rad) left and right.
-struct ViewLimits {
-  double range = 0.0;
-  double half_angle = 0.0;
-};
 
 /// Noise, gates and association of a filter on recorded data. The defaults suit slow indoor robots
 /// with wheel odometry and a camera (MR.CLAM). Too tight noise makes a filter sure of a wrong map;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <vector>
+
+#include "slam/association.hpp"
+#include "slam/dead_reckoning.hpp"
+#include "slam/ekf_equations.hpp"
+#include "slam/hypothesis.hpp"
+#include "slam/reading_error.hpp"
+#include "slam/recording.hpp"
+#include "slam/view_limits.hpp"
+
+namespace slamscope::slam {
+
+/// How many stories of the readings are kept side by side, and what they are judged by. Where a
+/// filter may be careful and take its noise wide, a judge must not: these are the errors as they
+/// are. The defaults are those of MR.CLAM's robots.
+struct HypothesisOptions {
+  int most = 0;  ///< hypotheses kept; 0: nothing is searched
+  ReadingErrorOptions error{};
+  /// Of odometry, as DeadReckoning has it: forward (m), sideways (m), turn (rad) after 1 s.
+  Eigen::Vector3d odometry_sigma{0.015, 0.005, 0.005};
+  /// rad, what turning by 1 rad adds to that; it grows with the root. Wheels slip when they turn.
+  double turn_sigma = 0.12;
+  /// Features a m² that the map does not have yet. Below the truth (0.1 there) by what a landmark
+  /// that is mapped twice costs more than one that has to wait.
+  double fresh_density = 1e-4;
+  /// Where a feature has to stand so that a reading may well be of it: so many features, so many
+  /// equally likely choices.
+  ViewLimits view{6.0, 0.5};
+  double gate_probability = 0.99995;  ///< of readings with features, and of two features being one
+  double same_place = 0.02;           ///< m, σ of the distance of two features that are one
+  double least_odds = 1e-6;           ///< hypotheses less likely than the best by more are dropped
+  Likeness likeness{};                ///< of two alike the likelier one goes on
+  /// Readings without which a feature of the best hypothesis is none.
+  int confirm_after = 8;
+};
+
+/// Multi-hypothesis data association over a recording of range and bearing (Reid 1979; Cox and
+/// Hingorani, "An efficient implementation of Reid's multiple hypothesis tracking algorithm", IEEE
+/// TPAMI 18(2), 1996). Each reading forks each hypothesis: it is of one of the features inside the
+/// gate, or of a new one. Two features that were never seen at one time may be the same: one more
+/// fork. The likelihood of all readings decides – at the end, so that what was taken for something
+/// else for want of knowledge is put right by what came later.
+///
+/// Time grows with hypotheses × features² a reading: for maps of some tens of features.
+class HypothesisSearch {
+ public:
+  /// A hypothesis with more features than this would take forever.
+  static constexpr int kMostFeatures = 200;
+
+  /// `recording` must outlive this. Throws std::invalid_argument for a sensor other than range and
+  /// bearing, for scans, and for options out of range.
+  HypothesisSearch(const Recording& recording, const Eigen::Vector3d& initial_sigma,
+                   const HypothesisOptions& options);
+
+  /// Goes through the whole recording. Of each reading, sightings in order, the feature that the
+  /// best hypothesis takes it for: 1, 2, 3 … in order of appearance, 0 for features that were read
+  /// less than `confirm_after` times. Throws std::runtime_error beyond kMostFeatures.
+  [[nodiscard]] std::vector<FeatureId> run();
+
+ private:
+  struct Fork {
+    std::size_t parent = 0;
+    int feature = Matches::kFresh;  ///< place in the parent's state
+    double score = 0.0;
+  };
+
+  void predictTo(std::chrono::nanoseconds time);
+  void read(const Sighting& sighting, std::chrono::nanoseconds time);
+  void addForks(std::size_t parent, const Observation& reading, std::chrono::nanoseconds time);
+  [[nodiscard]] Hypothesis child(const Fork& fork, const Observation& reading,
+                                 std::chrono::nanoseconds time);
+  void addJoins(std::size_t parent);
+  void keepBest();
+
+  const Recording& recording_;
+  HypothesisOptions options_;
+  EkfEquations equations_;
+  ReadingError error_;
+  DeadReckoning dead_reckoning_;
+  double gate_;
+  double drop_;  ///< of scores
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<Fork> forks_;
+  std::vector<std::vector<std::size_t>> in_view_;  ///< of each hypothesis, at this reading
+  std::chrono::nanoseconds time_;
+  std::size_t number_ = 0;  ///< of the next reading
+  FeatureId last_name_ = 0;
+};
+
+/// The recording with those ids in place of its own; readings of none (0) are taken out.
+[[nodiscard]] Recording labelled(Recording recording, const std::vector<FeatureId>& labels);
+
+}  // namespace slamscope::slam
