@@ -101,9 +101,8 @@ Hypothesis::Distance Hypothesis::distance(std::size_t a, std::size_t b) const {
 }
 
 void Hypothesis::join(std::size_t stays, std::size_t goes, const Distance& apart) {
-  const Eigen::Matrix<double, Eigen::Dynamic, 2> PHt =
-      covarianceWithDistance(state, Snapshot::row(static_cast<int>(stays)),
-                             Snapshot::row(static_cast<int>(goes)));
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> PHt = covarianceWithDistance(
+      state, Snapshot::row(static_cast<int>(stays)), Snapshot::row(static_cast<int>(goes)));
   const Eigen::Matrix<double, Eigen::Dynamic, 2> W = PHt * apart.covariance.inverse();
   state.x -= W * apart.mean;
   state.x[2] = wrapAngle(state.x[2]);

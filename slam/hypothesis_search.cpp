@@ -182,9 +182,8 @@ void HypothesisSearch::addJoins(std::size_t parent) {
 }
 
 void HypothesisSearch::keepBest() {
-  std::stable_sort(
-      hypotheses_.begin(), hypotheses_.end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
+  std::stable_sort(hypotheses_.begin(), hypotheses_.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
   std::vector<Hypothesis> kept;
   const double least = hypotheses_.front().score - drop_;
   for (Hypothesis& hypothesis : hypotheses_) {
@@ -196,16 +195,6 @@ void HypothesisSearch::keepBest() {
     if (!known) kept.push_back(std::move(hypothesis));
   }
   hypotheses_ = std::move(kept);
-}
-
-Recording labelled(Recording recording, const std::vector<FeatureId>& labels) {
-  std::size_t number = 0;
-  for (Sightings& sightings : recording.sightings) {
-    for (Sighting& sighting : sightings.seen) sighting.id = labels.at(number++);
-    std::erase_if(sightings.seen, [](const Sighting& sighting) { return sighting.id == 0; });
-  }
-  recording.ids_known = true;
-  return recording;
 }
 
 }  // namespace slamscope::slam

@@ -92,7 +92,4 @@ class HypothesisSearch {
   FeatureId last_name_ = 0;
 };
 
-/// The recording with those ids in place of its own; readings of none (0) are taken out.
-[[nodiscard]] Recording labelled(Recording recording, const std::vector<FeatureId>& labels);
-
 }  // namespace slamscope::slam

@@ -30,6 +30,13 @@ double logNormal(const Eigen::Vector2d& innovation, const Eigen::Matrix2d& S) {
   return -0.5 * (squared + std::log(determinant)) - std::log(2.0 * std::numbers::pi);
 }
 
+ReadingErrorOptions ReadingErrorOptions::withMemory(double seconds) const {
+  ReadingErrorOptions changed = *this;
+  changed.slow_memory = memory > 0.0 ? slow_memory / memory * seconds : seconds;
+  changed.memory = seconds;
+  return changed;
+}
+
 ReadingError::ReadingError(const ReadingErrorOptions& options) : options_(options) {
   const auto& o = options;
   if (!(o.range_sigma > 0.0 && o.range_share >= 0.0 && o.bearing_sigma > 0.0 && o.memory >= 0.0 &&
@@ -69,7 +76,8 @@ double ReadingError::logLikelihood(const Eigen::Vector2d& innovation, const Eige
   const double correlated = logNormal(news, S);
   const double most = std::max(alone, correlated);
   const double jump = options_.jump_share;
-  return most + std::log((1.0 - jump) * std::exp(correlated - most) + jump * std::exp(alone - most));
+  return most +
+         std::log((1.0 - jump) * std::exp(correlated - most) + jump * std::exp(alone - most));
 }
 
 }  // namespace slamscope::slam

@@ -26,6 +26,9 @@ struct ReadingErrorOptions {
   double slow_memory = 20.0;
   /// Share of readings whose range error has nothing to do with the one before.
   double jump_share = 0.1;
+
+  /// With another memory; the slow one keeps its ratio to it.
+  [[nodiscard]] ReadingErrorOptions withMemory(double seconds) const;
 };
 
 /// Readings of range and bearing under that error.

@@ -20,7 +20,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kSlamHelp =
     "Examples:\n"
     "  slamscope slam --mrclam DIR --robot 3 --score -o run.jsonl.zst\n"
-    "  slamscope slam --mrclam DIR --robot 3 --association joint --score\n"
+    "  slamscope slam --mrclam DIR --robot 3 --association joint --hypotheses 50 --score\n"
     "  slamscope slam --csv DIR --sensor-sigma 0.1,0.02 -o run.jsonl\n"
     "  slamscope slam --csv DIR --vehicle ackermann --wheelbase 2.83 --laser 3.78,0.5,0 --score\n"
     "  slamscope slam --victoria-park DIR --score\n"
@@ -52,6 +52,15 @@ constexpr const char* kSlamHelp =
     "  in view and not seen --drop times in a row. A laser knows what it looks past; for other "
     "sensors\n"
     "  say --view RANGE,DEGREES.\n"
+    "  --hypotheses 50 is for sightings of range and bearing among close features or after blind "
+    "drives:\n"
+    "  where it can't be told what a sighting is of, all stories go on until one is much likelier. "
+    "The\n"
+    "  run then takes the best one's names as ids. Noise is to be stated as it is, not wide, "
+    "--view "
+    "as\n"
+    "  what may well be seen; features of less than --confirm sightings (8) are left out, and\n"
+    "  --fresh-density says how readily a new feature is believed in.\n"
     "\n"
     "DIR of --csv: odometry.csv (time_s,forward_mps,turn_radps or time_s,speed_mps,steering_rad "
     "or\n"
@@ -154,6 +163,17 @@ void addAssociation(CLI::App& verb, SlamFlags& flags) {
                   "s; a tentative feature that was not seen for so long goes; 0: never")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
+  verb.add_option("--hypotheses", flags.hypotheses,
+                  "with joint: go through the recording first with so many maps side by side, one "
+                  "for each story of what the sightings are of, and let the whole recording decide "
+                  "(range and bearing, tens of features); 0: decide at once")
+      ->check(CLI::Range(0, 100000))
+      ->group(group);
+  verb.add_option("--error-memory", flags.error_memory,
+                  "s for which the range of a feature stays wrong once it is (--hypotheses); 0: "
+                  "each sighting errs by itself; default 3")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
   verb.add_option("--separation", flags.separation,
                   "features nearer to each other than this are one, m; 0: never")
       ->check(CLI::NonNegativeNumber)
@@ -218,6 +238,24 @@ slam::Association associationOf(const SlamFlags& flags, const slam::Recording& r
   return slam::Association::joint;
 }
 
+/// What the flags say of hypotheses: those of noise state it as it is, without slip or memory that
+/// they do not name.
+void setHypotheses(const SlamFlags& flags, slam::HypothesisOptions& options) {
+  if (!flags.sensor_sigma.empty()) {
+    options.error.range_sigma = flags.sensor_sigma.at(0);
+    options.error.range_share = 0.0;
+    options.error.bearing_sigma = flags.sensor_sigma.at(1);
+  }
+  if (flags.error_memory) options.error = options.error.withMemory(*flags.error_memory);
+  if (!flags.odometry_sigma.empty()) {
+    options.odometry_sigma = three(flags.odometry_sigma);
+    options.turn_sigma = 0.0;
+  }
+  if (!flags.view.empty()) options.view = {flags.view.at(0), flags.view.at(1) * kDegree};
+  options.fresh_density = flags.fresh_density.value_or(options.fresh_density);
+  options.confirm_after = flags.confirm.value_or(options.confirm_after);
+}
+
 }  // namespace
 
 void addSlamFlags(CLI::App& verb, SlamFlags& flags) {
@@ -252,8 +290,9 @@ slam::Recording readRecording(const SlamFlags& flags) {
 
 slam::RecordingRunOptions runOptions(const SlamFlags& flags, const slam::Recording& recording) {
   slam::RecordingRunOptions options =
-      flags.laser_lab.loops > 0 ? slam::LaserLab(flags.laser_lab).runOptions()
-                                : slam::usualOptions(recording, associationOf(flags, recording));
+      flags.laser_lab.loops > 0
+          ? slam::LaserLab(flags.laser_lab).runOptions()
+          : slam::usualOptions(recording, associationOf(flags, recording), flags.hypotheses);
   options.association = associationOf(flags, recording);
   options.gates.fresh = flags.fresh_gate.value_or(options.gates.fresh);
   options.gates.fresh_density = flags.fresh_density.value_or(options.gates.fresh_density);
@@ -283,6 +322,8 @@ slam::RecordingRunOptions runOptions(const SlamFlags& flags, const slam::Recordi
     options.laser.max_diameter = flags.diameters.at(1);
   }
   if (!flags.view.empty()) options.view = {flags.view.at(0), flags.view.at(1) * kDegree};
+  options.hypotheses.most = flags.hypotheses;
+  setHypotheses(flags, options.hypotheses);
   return options;
 }
 
