@@ -22,17 +22,17 @@ struct HypothesisOptions {
   int most = 0;  ///< hypotheses kept; 0: nothing is searched
   ReadingErrorOptions error{};
   /// Of odometry, as DeadReckoning has it: forward (m), sideways (m), turn (rad) after 1 s.
-  Eigen::Vector3d odometry_sigma{0.015, 0.005, 0.005};
+  Eigen::Vector3d odometry_sigma{0.015, 0.005, 0.02};
   /// rad, what turning by 1 rad adds to that; it grows with the root. Wheels slip when they turn.
   double turn_sigma = 0.12;
   /// Features a m² that the map does not have yet. Below the truth (0.1 there) by what a landmark
   /// that is mapped twice costs more than one that has to wait.
-  double fresh_density = 1e-4;
+  double fresh_density = 2e-5;
   /// Where a feature has to stand so that a reading may well be of it: so many features, so many
   /// equally likely choices.
-  ViewLimits view{6.0, 0.5};
+  ViewLimits view{7.0, 0.5};
   double gate_probability = 0.99995;  ///< of readings with features, and of two features being one
-  double same_place = 0.02;           ///< m, σ of the distance of two features that are one
+  double same_place = 0.03;           ///< m, σ of the distance of two features that are one
   double least_odds = 1e-6;           ///< hypotheses less likely than the best by more are dropped
   Likeness likeness{};                ///< of two alike the likelier one goes on
   /// Readings without which a feature of the best hypothesis is none.

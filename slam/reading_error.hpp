@@ -14,16 +14,16 @@ namespace slamscope::slam {
 /// reading would count as evidence of its own for whatever was decided first.
 struct ReadingErrorOptions {
   /// σ of a range (m) is `range_sigma` + `range_share` × range; of a bearing (rad) `bearing_sigma`.
-  /// The figures of a camera that reads barcodes 1 to 3 m away: 0.13 to 0.23 m, 0.02 rad (MR.CLAM
+  /// The figures of a camera that reads barcodes 1 to 3 m away: 0.15 to 0.25 m, 0.02 rad (MR.CLAM
   /// against its truth: 0.12 to 0.20 m, 0.009 to 0.027 rad).
-  double range_sigma = 0.08;
+  double range_sigma = 0.10;
   double range_share = 0.05;
   double bearing_sigma = 0.02;
   /// s, after which 1/e of a feature's range error is left. 0: white.
   double memory = 3.0;
   /// s, the same for corrections of the map: a part of the error stays for as long as the robot
   /// looks from the same side. 0: white.
-  double slow_memory = 20.0;
+  double slow_memory = 15.0;
   /// Share of readings whose range error has nothing to do with the one before.
   double jump_share = 0.1;
 

@@ -21,7 +21,7 @@ std::optional<LabelledReadings> labelsByHypotheses(Recording& recording,
                                                    const RecordingRunOptions& options) {
   if (options.hypotheses.most == 0) return std::nullopt;
   if (options.association != Association::joint) {
-    throw std::invalid_argument("hypotheses are for joint association");
+    throw std::invalid_argument("hypotheses go with joint association, not with known or nearest");
   }
   HypothesisSearch search(recording, options.initial_sigma, options.hypotheses);
   return relabel(recording, search.run());

@@ -164,7 +164,7 @@ void addAssociation(CLI::App& verb, SlamFlags& flags) {
       ->check(CLI::NonNegativeNumber)
       ->group(group);
   verb.add_option("--hypotheses", flags.hypotheses,
-                  "with joint: go through the recording first with so many maps side by side, one "
+                  "joint, but go through the recording first with so many maps side by side, one "
                   "for each story of what the sightings are of, and let the whole recording decide "
                   "(range and bearing, tens of features); 0: decide at once")
       ->check(CLI::Range(0, 100000))
@@ -234,6 +234,7 @@ slam::Recording readInput(const SlamFlags& flags) {
 slam::Association associationOf(const SlamFlags& flags, const slam::Recording& recording) {
   if (flags.association == "nearest") return slam::Association::nearest;
   if (flags.association == "joint") return slam::Association::joint;
+  if (flags.association.empty() && flags.hypotheses > 0) return slam::Association::joint;
   if (flags.association == "known" || recording.ids_known) return slam::Association::known;
   return slam::Association::joint;
 }

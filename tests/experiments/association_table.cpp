@@ -34,12 +34,9 @@ struct AssociationTally {
   }
 };
 
-void runOnce(const AmbiguousWorldOptions& world, Association association, AssociationTally& tally) {
-  RecordingRunOptions options;
-  options.association = association;
-  options.sensor_sigma = world.sensor_sigma;
-  options.odometry_sigma = {world.forward_sigma, 0.001, world.turn_sigma};
-  RecordingRun run(recordAmbiguousWorld(world), options);
+void runOnce(const AmbiguousWorldOptions& world, Association association, int hypotheses,
+             AssociationTally& tally) {
+  RecordingRun run(recordAmbiguousWorld(world), ambiguousWorldRun(world, association, hypotheses));
   const Scorer scorer(run.filter(), run.recording());
   while (run.step()) {
   }
@@ -50,14 +47,14 @@ void runOnce(const AmbiguousWorldOptions& world, Association association, Associ
 }
 
 AssociationTally tallyOf(AmbiguousWorldOptions world, Association association,
-                         const AssociationTableOptions& options) {
+                         const AssociationTableOptions& options, int hypotheses = 0) {
   AssociationTally total;
   std::mutex mutex;
   parallelFor(options.seeds, options.threads, [&](int k) {
     AmbiguousWorldOptions mine = world;
     mine.seed = static_cast<std::uint64_t>(k + 1);
     AssociationTally one;
-    runOnce(mine, association, one);
+    runOnce(mine, association, hypotheses, one);
     const std::lock_guard lock(mutex);
     total.paired += one.paired;
     total.wrong += one.wrong;
@@ -90,9 +87,11 @@ int printAssociationTable(const AssociationTableOptions& options) {
       const AssociationTally known = tallyOf(world, Association::known, options);
       const AssociationTally nearest = tallyOf(world, Association::nearest, options);
       const AssociationTally joint = tallyOf(world, Association::joint, options);
+      const AssociationTally many = tallyOf(world, Association::joint, options, options.hypotheses);
       printLine(world, "known", known);
       printLine(world, "nearest", nearest);
       printLine(world, "joint", joint);
+      printLine(world, "hypotheses", many);
       if (joint.wrong > nearest.wrong || joint.median() > nearest.median()) ++not_better;
     }
   }
