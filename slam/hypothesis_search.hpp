@@ -36,7 +36,7 @@ struct HypothesisOptions {
   double least_odds = 1e-6;           ///< hypotheses less likely than the best by more are dropped
   Likeness likeness{};                ///< of two alike the likelier one goes on
   /// Readings without which a feature of the best hypothesis is none.
-  int confirm_after = 8;
+  int confirm_after = 4;
 };
 
 /// Multi-hypothesis data association over a recording of range and bearing (Reid 1979; Cox and

@@ -59,7 +59,7 @@ constexpr const char* kSlamHelp =
     "  run then takes the best one's names as ids. Noise is to be stated as it is, not wide, "
     "--view "
     "as\n"
-    "  what may well be seen; features of less than --confirm sightings (8) are left out, and\n"
+    "  what may well be seen; features of less than --confirm sightings (4) are left out, and\n"
     "  --fresh-density says how readily a new feature is believed in.\n"
     "\n"
     "DIR of --csv: odometry.csv (time_s,forward_mps,turn_radps or time_s,speed_mps,steering_rad "

@@ -48,7 +48,6 @@ TEST(Hypothesis, ReadingsFarApartInTimeUpdateAsTheFilterDoes) {
 
 TEST(Hypothesis, ACopyGoesItsOwnWay) {
   Story story({{3.0, 0.1}});
-  Story other = {std::vector<Eigen::Vector2d>{}};
   const Hypothesis before = story.hypothesis;
   story.pair(0, {3.3, 0.1});
   EXPECT_EQ(before.state.featureCount(), 1);
