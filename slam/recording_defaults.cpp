@@ -13,6 +13,10 @@ RecordingRunOptions usualOptions(const Recording& recording, Association associa
   } else if (recording.odometry_kind == Recording::Odometry::ackermann) {
     options.odometry_sigma = {0.1, 0.05, 0.05};
   }
+  if (options.odometry_sigma != RecordingRunOptions().odometry_sigma) {
+    options.hypotheses.odometry_sigma = options.odometry_sigma;
+    options.hypotheses.turn_sigma = 0.0;  // that is how wheels of slow robots err
+  }
   if (association == Association::known || hypotheses > 0 || !recording.scans.empty())
     return options;
   options.sensor_sigma = {0.35, 0.06};
