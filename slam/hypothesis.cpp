@@ -30,16 +30,12 @@ Eigen::Vector2d featureAt(const EkfState& state, std::size_t index) {
 
 }  // namespace
 
-void removeFeature(EkfState& state, std::size_t index) {
-  const int row = Snapshot::row(static_cast<int>(index));
-  const int size = state.size();
-  const int below = size - row - 2;
-  state.ids.erase(state.ids.begin() + static_cast<std::ptrdiff_t>(index));
-  state.x.segment(row, below) = state.x.tail(below).eval();
-  state.x.conservativeResize(size - 2);
-  state.P.middleRows(row, below) = state.P.bottomRows(below).eval();
-  state.P.middleCols(row, below) = state.P.rightCols(below).eval();
-  state.P.conservativeResize(size - 2, size - 2);
+Decision::~Decision() {
+  std::shared_ptr<Decision> oldest = std::move(before);
+  while (oldest && oldest.use_count() == 1) {
+    std::shared_ptr<Decision> older = std::move(oldest->before);
+    oldest = std::move(older);
+  }
 }
 
 Hypothesis Hypothesis::atOrigin(const Eigen::Vector3d& initial_sigma) {
@@ -57,26 +53,25 @@ bool Hypothesis::sawTogether(FeatureId a, FeatureId b) const {
   return std::binary_search(together.begin(), together.end(), ordered(a, b));
 }
 
-void Hypothesis::pair(EkfEquations& equations, const ReadingError& error, std::size_t number,
-                      std::size_t index, Observation reading, std::chrono::nanoseconds time) {
+void Hypothesis::pair(EkfEquations& equations, std::size_t index, const Reading& reading) {
   const FeatureId feature = state.ids[index];
-  FeatureMemory& memory = memories[index];
-  reading.id = feature;
-  reading.R = error.correctionCovariance(reading.R, seconds(time - memory.last));
-  equations.reuse(equations.update(state, {&reading, 1}));
-  memory.last = time;
-  memory.last_error = equations.innovation(state, Snapshot::row(static_cast<int>(index)),
-                                           reading.z)[0];  // after the update
+  Observation observation = reading.observation;
+  observation.id = feature;
+  equations.reuse(equations.update(state, {&observation, 1}));
+  const int row = Snapshot::row(static_cast<int>(index));
+  const double error = equations.innovation(state, row, observation.z)[0];  // after the update
+  memories[index].last = reading.time;
+  memories[index].last_error = error;
   seen_now.push_back(feature);
-  newest = std::make_shared<Decision>(Decision{newest, number, feature});
+  newest = std::make_shared<Decision>(newest, reading.number, feature);
 }
 
-void Hypothesis::begin(EkfEquations& equations, std::size_t number, const Observation& reading,
-                       std::chrono::nanoseconds time) {
-  equations.initialise(state, reading);
-  memories.push_back({time});
-  seen_now.push_back(reading.id);
-  newest = std::make_shared<Decision>(Decision{newest, number, reading.id});
+void Hypothesis::begin(EkfEquations& equations, const Reading& reading) {
+  const FeatureId feature = reading.observation.id;
+  equations.initialise(state, reading.observation);
+  memories.push_back({reading.time});
+  seen_now.push_back(feature);
+  newest = std::make_shared<Decision>(newest, reading.number, feature);
 }
 
 void Hypothesis::endTime() {
@@ -122,8 +117,8 @@ void Hypothesis::join(std::size_t stays, std::size_t goes, const Distance& apart
   std::sort(together.begin(), together.end());
   together.erase(std::unique(together.begin(), together.end()), together.end());
   std::replace(seen_now.begin(), seen_now.end(), gone, left);
-  newest = std::make_shared<Decision>(Decision{newest, Decision::kJoin, gone, left});
-  removeFeature(state, goes);
+  newest = std::make_shared<Decision>(newest, Decision::kJoin, gone, left);
+  state.removeAt(Snapshot::row(static_cast<int>(goes)));
   memories.erase(memories.begin() + static_cast<std::ptrdiff_t>(goes));
 }
 

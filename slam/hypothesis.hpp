@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "slam/ekf_equations.hpp"
-#include "slam/reading_error.hpp"
 
 namespace slamscope::slam {
 
@@ -17,10 +16,28 @@ namespace slamscope::slam {
 struct Decision {
   static constexpr std::size_t kJoin = static_cast<std::size_t>(-1);
 
-  std::shared_ptr<const Decision> before;
-  std::size_t reading = kJoin;  ///< which one; kJoin: two features became one
-  FeatureId feature = 0;        ///< that it is of; of a join: the one that went
-  FeatureId into = 0;           ///< of a join: the one that stayed
+  Decision(std::shared_ptr<Decision> decided_before, std::size_t of_reading, FeatureId of_feature,
+           FeatureId joined_into = 0)
+      : before(std::move(decided_before)),
+        reading(of_reading),
+        feature(of_feature),
+        into(joined_into) {}
+  Decision(const Decision&) = delete;
+  Decision& operator=(const Decision&) = delete;
+  /// Without recursion, which would go as deep as there were readings.
+  ~Decision();
+
+  std::shared_ptr<Decision> before;
+  std::size_t reading;  ///< which one; kJoin: two features became one
+  FeatureId feature;    ///< that it is of; of a join: the one that went
+  FeatureId into;       ///< of a join: the one that stayed
+};
+
+/// A reading on its way through the hypotheses.
+struct Reading {
+  std::size_t number = 0;  ///< in order of the recording
+  std::chrono::nanoseconds time{};
+  Observation observation;  ///< its id: what a feature is called that it begins
 };
 
 /// What a hypothesis remembers of a feature.
@@ -43,7 +60,7 @@ struct Hypothesis {
   std::vector<FeatureId> seen_now;      ///< features that were read at this time
   /// Pairs (smaller id first, sorted) that were read at one time: they are not the same.
   std::vector<std::pair<FeatureId, FeatureId>> together;
-  std::shared_ptr<const Decision> newest;
+  std::shared_ptr<Decision> newest;
 
   /// At the origin, with an empty map.
   [[nodiscard]] static Hypothesis atOrigin(const Eigen::Vector3d& initial_sigma);
@@ -51,12 +68,10 @@ struct Hypothesis {
   [[nodiscard]] bool sawNow(FeatureId feature) const;
   [[nodiscard]] bool sawTogether(FeatureId a, FeatureId b) const;
 
-  /// Reading number `number` is of the feature at place `index` of the state's order.
-  void pair(EkfEquations& equations, const ReadingError& error, std::size_t number,
-            std::size_t index, Observation reading, std::chrono::nanoseconds time);
-  /// It is of a new feature, which gets the reading's id.
-  void begin(EkfEquations& equations, std::size_t number, const Observation& reading,
-             std::chrono::nanoseconds time);
+  /// The reading is of the feature at place `index` of the state's order.
+  void pair(EkfEquations& equations, std::size_t index, const Reading& reading);
+  /// It is of a new feature.
+  void begin(EkfEquations& equations, const Reading& reading);
   /// Notes which features were seen together at this time, and goes on to the next.
   void endTime();
 
@@ -73,9 +88,6 @@ struct Hypothesis {
   /// Which feature of the final map each of `count` readings is of, 0: none.
   [[nodiscard]] std::vector<FeatureId> labels(std::size_t count) const;
 };
-
-/// Takes feature number `index` out of the state.
-void removeFeature(EkfState& state, std::size_t index);
 
 /// How near two hypotheses must be to go on as one: squared Mahalanobis distances of pose (3
 /// degrees of freedom) and of each feature (2).

@@ -92,52 +92,55 @@ void HypothesisSearch::predictTo(nanoseconds time) {
 
 /// Forks are scored first, and only those become hypotheses that are likely enough.
 void HypothesisSearch::read(const Sighting& sighting, nanoseconds time) {
-  const Observation reading{++last_name_, sighting.z,
-                            sighting.R.value_or(error_.covariance(sighting.z[0]))};
+  const Eigen::Matrix2d R = sighting.R.value_or(error_.covariance(sighting.z[0]));
+  const Reading reading{number_++, time, {++last_name_, sighting.z, R}};
   forks_.clear();
   in_view_.assign(hypotheses_.size(), {});
-  for (std::size_t k = 0; k < hypotheses_.size(); ++k) addForks(k, reading, time);
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) addForks(k, reading);
   std::stable_sort(forks_.begin(), forks_.end(),
                    [](const Fork& a, const Fork& b) { return a.score > b.score; });
   std::vector<Hypothesis> children;
   for (const Fork& fork : forks_) {
     const bool enough = children.size() == static_cast<std::size_t>(options_.most);
     if (enough || !(fork.score > forks_.front().score - drop_)) break;
-    children.push_back(child(fork, reading, time));
+    children.push_back(child(fork, reading));
   }
   hypotheses_ = std::move(children);
-  ++number_;
 }
 
 /// Scores are relative to "of a new feature", whose density over readings is λ × range.
-void HypothesisSearch::addForks(std::size_t parent, const Observation& reading, nanoseconds time) {
+void HypothesisSearch::addForks(std::size_t parent, const Reading& reading) {
   const Hypothesis& hypothesis = hypotheses_[parent];
+  const auto& [name, z, R] = reading.observation;
   const std::vector<ExpectedReading> expected =
       expectedReadings(hypothesis.state, equations_.sensor());
+  std::vector<std::size_t> unseen;
   for (std::size_t k = 0; k < expected.size(); ++k) {
     if (hypothesis.sawNow(hypothesis.state.ids[k])) continue;
+    unseen.push_back(k);
     if (expected[k].z[0] < options_.view.range &&
         std::abs(expected[k].z[1]) < options_.view.half_angle) {
       in_view_[parent].push_back(k);
     }
   }
   const double choices = std::max(1.0, static_cast<double>(in_view_[parent].size()));
-  const double fresh = std::log(options_.fresh_density * reading.z[0]) + std::log(choices);
-  for (std::size_t k = 0; k < expected.size(); ++k) {
-    if (hypothesis.sawNow(hypothesis.state.ids[k])) continue;
-    const Eigen::Vector2d innovation =
-        observationDifference(equations_.sensor(), reading.z, expected[k].z);
-    const Eigen::Matrix2d S = expected[k].HPHt + reading.R;
-    if (!(innovation.dot(S.inverse() * innovation) < gate_)) continue;
+  const double fresh = std::log(options_.fresh_density * std::abs(z[0])) + std::log(choices);
+  for (const std::size_t k : unseen) {
+    const Eigen::Vector2d innovation = observationDifference(equations_.sensor(), z, expected[k].z);
+    if (!inGate(innovation, expected[k].HPHt + R)) continue;
     const FeatureMemory& memory = hypothesis.memories[k];
-    const double likelihood = error_.logLikelihood(innovation, expected[k].HPHt, reading.R,
-                                                   memory.last_error, seconds(time - memory.last));
+    const double likelihood = error_.logLikelihood(
+        {innovation, expected[k].HPHt, R, memory.last_error, seconds(reading.time - memory.last)});
     forks_.push_back({parent, static_cast<int>(k), hypothesis.score + likelihood - fresh});
   }
   forks_.push_back({parent, Matches::kFresh, hypothesis.score});
 }
 
-Hypothesis HypothesisSearch::child(const Fork& fork, const Observation& reading, nanoseconds time) {
+bool HypothesisSearch::inGate(const Eigen::Vector2d& innovation, const Eigen::Matrix2d& S) const {
+  return innovation.dot(S.inverse() * innovation) < gate_;
+}
+
+Hypothesis HypothesisSearch::child(const Fork& fork, const Reading& reading) {
   Hypothesis child = hypotheses_[fork.parent];
   child.score = fork.score;
   if (fork.feature == Matches::kFresh) {
@@ -145,14 +148,18 @@ Hypothesis HypothesisSearch::child(const Fork& fork, const Observation& reading,
       throw std::runtime_error(recording_.name + ": more than " + std::to_string(kMostFeatures) +
                                " features, too many for hypotheses");
     }
-    child.begin(equations_, number_, reading, time);
+    child.begin(equations_, reading);
     return child;
   }
   const auto choices = static_cast<double>(in_view_[fork.parent].size());
   for (const std::size_t k : in_view_[fork.parent]) {
     if (choices > 1.0) child.memories[k].choice_cost += std::log(choices / (choices - 1.0));
   }
-  child.pair(equations_, error_, number_, static_cast<std::size_t>(fork.feature), reading, time);
+  const auto index = static_cast<std::size_t>(fork.feature);
+  Reading correcting = reading;
+  correcting.observation.R = error_.correctionCovariance(
+      reading.observation.R, seconds(reading.time - child.memories[index].last));
+  child.pair(equations_, index, correcting);
   return child;
 }
 
@@ -170,7 +177,7 @@ void HypothesisSearch::addJoins(std::size_t parent) {
       const std::size_t goes = stays == a ? b : a;
       Hypothesis::Distance apart = two.distance(stays, goes);
       apart.covariance += options_.same_place * options_.same_place * Eigen::Matrix2d::Identity();
-      if (!(apart.mean.dot(apart.covariance.inverse() * apart.mean) < gate_)) continue;
+      if (!inGate(apart.mean, apart.covariance)) continue;
       Hypothesis one = two;
       one.score += logNormal(apart.mean, apart.covariance) - std::log(options_.fresh_density) +
                    two.memories[goes].choice_cost;

@@ -25,8 +25,9 @@ struct HypothesisOptions {
   Eigen::Vector3d odometry_sigma{0.015, 0.005, 0.02};
   /// rad, what turning by 1 rad adds to that; it grows with the root. Wheels slip when they turn.
   double turn_sigma = 0.12;
-  /// Features a m² that the map does not have yet. Below the truth (0.1 there) by what a landmark
-  /// that is mapped twice costs more than one that has to wait.
+  /// How often a reading is of a feature that the map does not have yet, a m² of floor. A feature
+  /// is begun once and read a hundred times, so this is far less than how densely they stand; too
+  /// much of it maps features twice (tests/experiments/README.md).
   double fresh_density = 2e-5;
   /// Where a feature has to stand so that a reading may well be of it: so many features, so many
   /// equally likely choices.
@@ -71,9 +72,9 @@ class HypothesisSearch {
 
   void predictTo(std::chrono::nanoseconds time);
   void read(const Sighting& sighting, std::chrono::nanoseconds time);
-  void addForks(std::size_t parent, const Observation& reading, std::chrono::nanoseconds time);
-  [[nodiscard]] Hypothesis child(const Fork& fork, const Observation& reading,
-                                 std::chrono::nanoseconds time);
+  void addForks(std::size_t parent, const Reading& reading);
+  [[nodiscard]] Hypothesis child(const Fork& fork, const Reading& reading);
+  [[nodiscard]] bool inGate(const Eigen::Vector2d& innovation, const Eigen::Matrix2d& S) const;
   void addJoins(std::size_t parent);
   void keepBest();
 

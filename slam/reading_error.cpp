@@ -62,9 +62,8 @@ Eigen::Matrix2d ReadingError::correctionCovariance(const Eigen::Matrix2d& R, dou
 
 /// With error e(k) = g e(k − 1) + w, and e(k − 1) known but for what the map is unsure of, the
 /// innovation has mean g e(k − 1) and the map's part of its covariance counts (1 − g) times.
-double ReadingError::logLikelihood(const Eigen::Vector2d& innovation, const Eigen::Matrix2d& HPHt,
-                                   const Eigen::Matrix2d& R, double last_error,
-                                   double since) const {
+double ReadingError::logLikelihood(const ComparedReading& reading) const {
+  const auto& [innovation, HPHt, R, last_error, since] = reading;
   const double alone = logNormal(innovation, HPHt + R);
   const double g = correlationAfter(since, options_.memory);
   if (g == 0.0) return alone;

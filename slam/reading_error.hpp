@@ -31,6 +31,15 @@ struct ReadingErrorOptions {
   [[nodiscard]] ReadingErrorOptions withMemory(double seconds) const;
 };
 
+/// A reading beside what a filter expected of some feature.
+struct ComparedReading {
+  Eigen::Vector2d innovation = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d HPHt = Eigen::Matrix2d::Zero();  ///< what the map is unsure of
+  Eigen::Matrix2d R = Eigen::Matrix2d::Zero();     ///< of the reading taken alone
+  double last_error = 0.0;                         ///< m, of the feature's last range,
+  double since = 0.0;                              ///< so many s ago
+};
+
 /// Readings of range and bearing under that error.
 class ReadingError {
  public:
@@ -45,11 +54,8 @@ class ReadingError {
   /// the feature as sure as the mean of so many correlated ones is.
   [[nodiscard]] Eigen::Matrix2d correctionCovariance(const Eigen::Matrix2d& R, double since) const;
 
-  /// ln p(ν) of a reading: `HPHt` is what the map is unsure of, `R` the reading's covariance,
-  /// `last_error` of the feature's last range, `since` s ago.
-  [[nodiscard]] double logLikelihood(const Eigen::Vector2d& innovation, const Eigen::Matrix2d& HPHt,
-                                     const Eigen::Matrix2d& R, double last_error,
-                                     double since) const;
+  /// ln p(ν).
+  [[nodiscard]] double logLikelihood(const ComparedReading& reading) const;
 
  private:
   ReadingErrorOptions options_;

@@ -17,33 +17,32 @@ struct Story {
   explicit Story(const std::vector<Eigen::Vector2d>& readings) {
     for (const Eigen::Vector2d& z : readings) {
       const std::size_t number = next++;
-      hypothesis.begin(equations, number, {static_cast<FeatureId>(next), z, kForkNoise}, 0s);
+      hypothesis.begin(equations, {number, 0s, {static_cast<FeatureId>(next), z, kForkNoise}});
       hypothesis.endTime();
       hypothesis.seen_now.clear();
     }
   }
   void pair(std::size_t index, const Eigen::Vector2d& z) {
-    hypothesis.pair(equations, error, next++, index, {0, z, kForkNoise}, 100s);
+    hypothesis.pair(equations, index, {next++, 100s, {0, z, kForkNoise}});
   }
   [[nodiscard]] Eigen::MatrixXd covariance() const {
     return hypothesis.state.P.selfadjointView<Eigen::Lower>();
   }
 
   EkfEquations equations{Sensor::range_bearing};
-  ReadingError error{ReadingErrorOptions{}};
   Hypothesis hypothesis = Hypothesis::atOrigin({0.3, 0.3, 0.1});
   std::size_t next = 0;
 };
 
-TEST(Hypothesis, ReadingsFarApartInTimeUpdateAsTheFilterDoes) {
+TEST(Hypothesis, UpdatesAsTheFilterDoes) {
   Story story({{3.0, 0.1}, {2.0, -0.4}});
   EkfState plain = story.hypothesis.state;
   const Observation reading{2, {2.1, -0.38}, kForkNoise};
   story.equations.update(plain, {&reading, 1});
   story.pair(1, reading.z);
-  EXPECT_LT((story.hypothesis.state.x - plain.x).norm(), 1e-3);
+  EXPECT_LT((story.hypothesis.state.x - plain.x).norm(), 1e-12);
   EXPECT_LT((story.covariance() - Eigen::MatrixXd(plain.P.selfadjointView<Eigen::Lower>())).norm(),
-            1e-3);
+            1e-12);
 }
 
 TEST(Hypothesis, ACopyGoesItsOwnWay) {
@@ -106,6 +105,21 @@ TEST(Hypothesis, RemembersWhatWasSeenTogetherThroughAJoin) {
   apart.covariance += 1e-4 * Eigen::Matrix2d::Identity();
   story.hypothesis.join(0, 2, apart);
   EXPECT_TRUE(story.hypothesis.sawTogether(2, 1));
+}
+
+TEST(Hypothesis, AMillionDecisionsAreForgottenWithoutRecursion) {
+  Story story({{3.0, 0.1}});
+  for (std::size_t k = 1; k < 1'000'000; ++k) {
+    story.hypothesis.newest = std::make_shared<Decision>(story.hypothesis.newest, k, FeatureId{1});
+  }
+  const std::shared_ptr<Decision> half_way = [&] {
+    std::shared_ptr<Decision> decision = story.hypothesis.newest;
+    for (int k = 0; k < 500'000; ++k) decision = decision->before;
+    return decision;
+  }();
+  story.hypothesis.newest.reset();
+  EXPECT_EQ(half_way->reading, 499'999U) << "what others share stays";
+  EXPECT_NE(half_way->before, nullptr);
 }
 
 TEST(Hypothesis, OnlyTheSameBeliefIsAlike) {

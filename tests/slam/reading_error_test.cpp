@@ -18,7 +18,7 @@ TEST(ReadingError, WhiteErrorIsTheNormalDensityAndLeavesRAlone) {
   const Eigen::Matrix2d R = white.covariance(2.0);
   EXPECT_NEAR(R(0, 0), 0.2 * 0.2, 1e-12);
   const Eigen::Vector2d innovation(0.1, -0.05);
-  EXPECT_EQ(white.logLikelihood(innovation, kUnsure, R, 5.0, 0.0),
+  EXPECT_EQ(white.logLikelihood({innovation, kUnsure, R, 5.0, 0.0}),
             logNormal(innovation, kUnsure + R));
   EXPECT_EQ(white.correctionCovariance(R, 0.0), R);
 }
@@ -48,8 +48,8 @@ TEST(ReadingError, TheTrueMemoryExplainsErrorsBest) {
     for (int k = 0; k < 4000; ++k) {
       const double last = range_error;
       range_error = g * range_error + std::sqrt(1 - g * g) * 0.2 * random.normal();
-      sum += error.logLikelihood({range_error, 0.02 * random.normal()}, Eigen::Matrix2d::Zero(), R,
-                                 last, interval);
+      sum += error.logLikelihood(
+          {{range_error, 0.02 * random.normal()}, Eigen::Matrix2d::Zero(), R, last, interval});
     }
     return sum / 4000;
   };
