@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 constexpr double kRoomLength = 14.0;    // m
 constexpr double kRoomWidth = 8.0;      // m
 constexpr double kLeastDistance = 2.5;  // m, between clusters
-constexpr double kClusterRadius = 0.15;
+constexpr double kPostFromMiddle = 0.15;
 constexpr double kOdometryPeriod = 0.1;  // s
 constexpr int kStepsPerSighting = 5;
 constexpr int kStepsPerGoal = 400;  // at most
@@ -40,7 +40,7 @@ void plantClusters(const ClusteredWorldOptions& options, RandomSource& random,
     for (int post = 0; post < (k < 3 ? 3 : 2); ++post) {
       angle += 2.0 * std::numbers::pi / 3.0 + random.uniform(-0.3, 0.3);
       const Eigen::Vector2d from_middle(std::cos(angle), std::sin(angle));
-      recording.truth_features.emplace_back(++id, middles[k] + kClusterRadius * from_middle);
+      recording.truth_features.emplace_back(++id, middles[k] + kPostFromMiddle * from_middle);
     }
   }
 }

@@ -10,7 +10,7 @@
 namespace slamscope::slam {
 namespace {
 
-std::pair<FeatureId, FeatureId> ordered(FeatureId a, FeatureId b) {
+std::pair<FeatureId, FeatureId> inOrder(FeatureId a, FeatureId b) {
   return std::minmax(a, b);
 }
 
@@ -50,7 +50,7 @@ bool Hypothesis::sawNow(FeatureId feature) const {
 }
 
 bool Hypothesis::sawTogether(FeatureId a, FeatureId b) const {
-  return std::binary_search(together.begin(), together.end(), ordered(a, b));
+  return std::binary_search(together.begin(), together.end(), inOrder(a, b));
 }
 
 void Hypothesis::pair(EkfEquations& equations, std::size_t index, const Reading& reading) {
@@ -77,7 +77,7 @@ void Hypothesis::begin(EkfEquations& equations, const Reading& reading) {
 void Hypothesis::endTime() {
   for (std::size_t k = 0; k < seen_now.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j) {
-      const auto both = ordered(seen_now[k], seen_now[j]);
+      const auto both = inOrder(seen_now[k], seen_now[j]);
       const auto place = std::lower_bound(together.begin(), together.end(), both);
       if (place == together.end() || *place != both) together.insert(place, both);
     }
@@ -110,7 +110,7 @@ void Hypothesis::join(std::size_t stays, std::size_t goes, const Distance& apart
     memories[stays].last_error = memories[goes].last_error;
   }
   for (auto& [a, b] : together) {
-    const auto renamed = ordered(a == gone ? left : a, b == gone ? left : b);
+    const auto renamed = inOrder(a == gone ? left : a, b == gone ? left : b);
     a = renamed.first;
     b = renamed.second;
   }

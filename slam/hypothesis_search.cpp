@@ -17,6 +17,9 @@ using std::chrono::nanoseconds;
 /// Predictions over longer times would take a turn of many radians for its sum.
 constexpr nanoseconds kLongestHypothesisStep = std::chrono::seconds(1);
 
+/// m; nearer, a strip of floor as wide as its range would be none.
+constexpr double kLeastRange = 0.01;
+
 Sensor rangeBearingOf(const Recording& recording) {
   if (recording.sensor != Sensor::range_bearing || !recording.scans.empty()) {
     throw std::invalid_argument(recording.name +
@@ -124,7 +127,8 @@ void HypothesisSearch::addForks(std::size_t parent, const Reading& reading) {
     }
   }
   const double choices = std::max(1.0, static_cast<double>(in_view_[parent].size()));
-  const double fresh = std::log(options_.fresh_density * std::abs(z[0])) + std::log(choices);
+  const double width = std::max(kLeastRange, std::abs(z[0]));
+  const double fresh = std::log(options_.fresh_density * width * choices);
   for (const std::size_t k : unseen) {
     const Eigen::Vector2d innovation = observationDifference(equations_.sensor(), z, expected[k].z);
     if (!inGate(innovation, expected[k].HPHt + R)) continue;
