@@ -52,15 +52,12 @@ constexpr const char* kSlamHelp =
     "  in view and not seen --drop times in a row. A laser knows what it looks past; for other "
     "sensors\n"
     "  say --view RANGE,DEGREES.\n"
-    "  --hypotheses 50 is for sightings of range and bearing among close features or after blind "
-    "drives:\n"
-    "  where it can't be told what a sighting is of, all stories go on until one is much likelier. "
-    "The\n"
-    "  run then takes the best one's names as ids. Noise is to be stated as it is, not wide, "
-    "--view "
-    "as\n"
-    "  what may well be seen; features of less than --confirm sightings (4) are left out, and\n"
-    "  --fresh-density says how readily a new feature is believed in.\n"
+    "Among close features or after blind drives\n"
+    "  --hypotheses 50: where it can't be told what a sighting of range and bearing is of, all\n"
+    "  stories go on until one is much likelier. The run then takes the best one's names as ids.\n"
+    "  State noise as it is, not wide, and --view as what may well be seen. Features of less than\n"
+    "  --confirm sightings (4) are left out; --fresh-density (2e-5) says how readily a new one is\n"
+    "  believed in.\n"
     "\n"
     "DIR of --csv: odometry.csv (time_s,forward_mps,turn_radps or time_s,speed_mps,steering_rad "
     "or\n"
@@ -239,8 +236,8 @@ slam::Association associationOf(const SlamFlags& flags, const slam::Recording& r
   return slam::Association::joint;
 }
 
-/// What the flags say of hypotheses: those of noise state it as it is, without slip or memory that
-/// they do not name.
+/// What the flags say of hypotheses. Noise that is stated is all there is: a range's does not grow
+/// with it, nor the odometry's with turns.
 void setHypotheses(const SlamFlags& flags, slam::HypothesisOptions& options) {
   if (!flags.sensor_sigma.empty()) {
     options.error.range_sigma = flags.sensor_sigma.at(0);
