@@ -71,4 +71,23 @@ Recording recordAmbiguousWorld(const AmbiguousWorldOptions& options) {
   return recording;
 }
 
+RecordingRunOptions ambiguousWorldRun(const AmbiguousWorldOptions& world, Association association,
+                                      int hypotheses) {
+  RecordingRunOptions options;
+  options.association = association;
+  options.sensor_sigma = world.sensor_sigma;
+  options.odometry_sigma = {world.forward_sigma, 0.001, world.turn_sigma};
+  options.hypotheses.most = hypotheses;
+  options.hypotheses.odometry_sigma = options.odometry_sigma;
+  options.hypotheses.turn_sigma = 0.0;
+  options.hypotheses.view = {world.sensor_range, std::numbers::pi / 2.0};
+  options.hypotheses.error = {.range_sigma = world.sensor_sigma[0],
+                              .range_share = 0.0,
+                              .bearing_sigma = world.sensor_sigma[1],
+                              .memory = 0.0,
+                              .slow_memory = 0.0,
+                              .jump_share = 0.0};
+  return options;
+}
+
 }  // namespace slamscope::slam

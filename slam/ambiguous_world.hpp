@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "slam/recording.hpp"
+#include "slam/run_recording.hpp"
 
 namespace slamscope::slam {
 
@@ -23,5 +24,9 @@ struct AmbiguousWorldOptions {
 
 /// What the robot records there: odometry, sightings once a second with their true ids, truth.
 [[nodiscard]] Recording recordAmbiguousWorld(const AmbiguousWorldOptions& options);
+
+/// How to run over it: the world's own noise, white as it is there. `hypotheses` with joint only.
+[[nodiscard]] RecordingRunOptions ambiguousWorldRun(const AmbiguousWorldOptions& world,
+                                                    Association association, int hypotheses = 0);
 
 }  // namespace slamscope::slam

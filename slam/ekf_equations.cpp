@@ -78,6 +78,16 @@ std::optional<int> EkfState::rowOf(FeatureId id) const {
   return Snapshot::row(static_cast<int>(found - ids.begin()));
 }
 
+void EkfState::removeAt(int row) {
+  const int below = size() - row - 2;
+  ids.erase(ids.begin() + (row - 3) / 2);
+  x.segment(row, below) = x.tail(below).eval();
+  x.conservativeResize(x.size() - 2);
+  P.middleRows(row, below) = P.bottomRows(below).eval();
+  P.middleCols(row, below) = P.rightCols(below).eval();
+  P.conservativeResize(P.rows() - 2, P.cols() - 2);
+}
+
 Eigen::MatrixXd ObservationJacobian::dense(int size) const {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, size);
   H.leftCols<3>() = H_v;

@@ -32,6 +32,8 @@ struct EkfState {
   [[nodiscard]] Eigen::Vector3d pose() const { return x.head<3>(); }
   /// Row of the feature's first coordinate; absent where the feature is not in the map.
   [[nodiscard]] std::optional<int> rowOf(FeatureId id) const;
+  /// Takes out the feature whose first coordinate is in that row.
+  void removeAt(int row);
 };
 
 /// The non-zero blocks of H_i (2×N): columns 0–2 and columns `column`, `column` + 1.

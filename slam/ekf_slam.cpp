@@ -164,14 +164,7 @@ void EkfSlam::remove(FeatureId id) {
     throw std::invalid_argument("remove of feature " + std::to_string(id) +
                                 ", which is not in the map");
   }
-  const int size = state_.size();
-  const int below = size - *row - 2;
-  state_.ids.erase(state_.ids.begin() + (*row - 3) / 2);
-  state_.x.segment(*row, below) = state_.x.tail(below).eval();
-  state_.x.conservativeResize(size - 2);
-  state_.P.middleRows(*row, below) = state_.P.bottomRows(below).eval();
-  state_.P.middleCols(*row, below) = state_.P.rightCols(below).eval();
-  state_.P.conservativeResize(size - 2, size - 2);
+  state_.removeAt(*row);
   ++counters_.removed;
   announce(Event::remove, [](Snapshot&) {});
 }

@@ -2,7 +2,6 @@
 #include "slam/map_builder.hpp"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 
 namespace slamscope::slam {
@@ -51,37 +50,6 @@ bool MapBuilder::confirmed(FeatureId id) const {
   return life != lives_.end() && life->second.confirmed;
 }
 
-std::map<FeatureId, FeatureId> MapBuilder::names() const {
-  struct Votes {
-    int count;
-    FeatureId feature, carried;
-  };
-  std::vector<Votes> all;
-  for (const auto& [id, life] : lives_) {
-    for (const auto& [carried, times] : life.ids) all.push_back({times, id, carried});
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Votes& a, const Votes& b) { return a.count > b.count; });
-  std::map<FeatureId, FeatureId> names;
-  std::set<FeatureId> given;
-  for (const Votes& votes : all) {
-    if (names.contains(votes.feature) || !given.insert(votes.carried).second) continue;
-    names[votes.feature] = votes.carried;
-  }
-  for (const Votes& votes : all) names.try_emplace(votes.feature, votes.carried);
-  return names;
-}
-
-std::uint64_t MapBuilder::mispaired() const {
-  std::uint64_t count = 0;
-  for (const auto& [id, name] : names()) {
-    for (const auto& [carried, times] : lives_.at(id).ids) {
-      if (carried != name) count += static_cast<std::uint64_t>(times);
-    }
-  }
-  return count;
-}
-
 /// The readings as the filter takes them: those of known features, then those of new ones.
 std::vector<Observation> MapBuilder::named(std::span<const Observation> readings,
                                            const Matches& matches) {
@@ -105,8 +73,8 @@ std::vector<Observation> MapBuilder::named(std::span<const Observation> readings
 
 void MapBuilder::see(FeatureId id, FeatureId carried) {
   ++counters_.paired;
+  carried_.count(id, carried);
   Life& life = lives_[id];
-  if (carried != kNoFeature) ++life.ids[carried];
   ++life.seen;
   life.missed = 0;
   life.last = time_;
@@ -160,7 +128,7 @@ std::vector<Observation> MapBuilder::births(std::span<const Observation> fresh) 
     Life& life = lives_[last_name_];
     life.last = time_;
     life.confirmed = options_.confirm_after == 1;
-    if (reading.id != kNoFeature) ++life.ids[reading.id];
+    carried_.count(last_name_, reading.id);
     ++counters_.born;
     ++(options_.confirm_after == 1 ? counters_.confirmed : tentative_);
   }
@@ -197,6 +165,7 @@ FeatureId MapBuilder::duplicateOf(FeatureId id) const {
 void MapBuilder::remove(FeatureId id) {
   if (!lives_[id].confirmed) --tentative_;
   lives_.erase(id);
+  carried_.forget(id);
   filter_.remove(id);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "slam/association.hpp"
+#include "slam/carried_ids.hpp"
 #include "slam/ekf_slam.hpp"
 
 namespace slamscope::slam {
@@ -59,20 +60,15 @@ class MapBuilder {
              const FeatureLifeOptions& life);
 
   /// All readings of one time, to which the filter has predicted. Features are called 1, 2, 3 …;
-  /// the readings' ids are not looked at, but for keeping count (`names`, `mispaired`). Without a
+  /// the readings' ids are not looked at, but for keeping count (`carried`). Without a
   /// view nothing is ever expected.
   void observe(std::chrono::nanoseconds time, std::span<const Observation> readings,
                const View& view = {});
 
   [[nodiscard]] const MapCounters& counters() const { return counters_; }
   [[nodiscard]] bool confirmed(FeatureId id) const;
-  /// Feature → the id that its readings carried, for features of whose readings some carried one.
-  /// Each id goes to one feature, those with most readings first; a feature for which none is left
-  /// gets its own most frequent one, as a duplicate. For scores on recordings whose ids are known
-  /// and only hidden from the association.
-  [[nodiscard]] std::map<FeatureId, FeatureId> names() const;
-  /// Readings of features of the map that carried another id than that.
-  [[nodiscard]] std::uint64_t mispaired() const;
+  /// Which ids the readings of the map's features carried.
+  [[nodiscard]] const CarriedIds& carried() const { return carried_; }
 
  private:
   struct Life {
@@ -80,7 +76,6 @@ class MapBuilder {
     std::chrono::nanoseconds last{};  ///< time when it was seen last
     int missed = 0;                   ///< in a row
     bool confirmed = false;
-    std::map<FeatureId, int> ids;  ///< how many of its readings carried which
   };
 
   [[nodiscard]] std::vector<Observation> named(std::span<const Observation> readings,
@@ -97,6 +92,7 @@ class MapBuilder {
   Associator associator_;
   FeatureLifeOptions options_;
   MapCounters counters_;
+  CarriedIds carried_;
   std::map<FeatureId, Life> lives_;
   std::vector<FeatureId> seen_last_;
   std::chrono::nanoseconds time_{};

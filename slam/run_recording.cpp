@@ -16,13 +16,29 @@ using std::chrono::nanoseconds;
 /// So many sightings of one id in a row outside the gate are no accident.
 constexpr int kSuspicious = 5;
 
+/// With hypotheses: puts the best one's labels into the recording.
+std::optional<LabelledReadings> labelsByHypotheses(Recording& recording,
+                                                   const RecordingRunOptions& options) {
+  if (options.hypotheses.most == 0) return std::nullopt;
+  if (options.association != Association::joint) {
+    throw std::invalid_argument("hypotheses go with joint association, not with known or nearest");
+  }
+  HypothesisSearch search(recording, options.initial_sigma, options.hypotheses);
+  return relabel(recording, search.run());
+}
+
+/// Whether the filter is told the features of its readings.
+bool idsGiven(const RecordingRunOptions& options) {
+  return options.association == Association::known || options.hypotheses.most > 0;
+}
+
 EkfOptions recordingFilter(const Recording& recording, const RecordingRunOptions& options) {
   if (!(options.sensor_sigma.minCoeff() > 0.0) || !(options.odometry_sigma.minCoeff() >= 0.0) ||
       !(options.initial_sigma.minCoeff() >= 0.0) || options.longest_prediction.count() <= 0) {
     throw std::invalid_argument(
         "RecordingRun: σ of the sensor must be above 0, other σ not negative");
   }
-  const bool known = options.association == Association::known;
+  const bool known = idsGiven(options);
   if (known && (!recording.ids_known || !recording.scans.empty())) {
     throw std::invalid_argument(recording.name +
                                 ": features have no ids here, so their association can't be known; "
@@ -52,10 +68,11 @@ std::string counted(std::uint64_t count, const std::string& what) {
 RecordingRun::RecordingRun(Recording recording, const RecordingRunOptions& options)
     : recording_(std::move(recording)),
       options_(options),
+      labels_(labelsByHypotheses(recording_, options_)),
       filter_(recordingFilter(recording_, options), recordingEquations(recording_, options)),
       dead_reckoning_(recording_, options.odometry_sigma) {
   if (!recording_.scans.empty()) front_end_.emplace(recording_.laser, options.laser);
-  if (options.association != Association::known) {
+  if (!idsGiven(options_)) {
     map_.emplace(filter_, options.association, options.gates, options.life);
   }
 }
@@ -104,13 +121,20 @@ RunHeader RecordingRun::header() const {
 }
 
 std::optional<MapCounters> RecordingRun::mapCounters() const {
+  if (labels_) return labels_->counters;
   if (!map_) return std::nullopt;
   return map_->counters();
 }
 
+std::uint64_t RecordingRun::mispaired() const {
+  if (labels_) return labels_->carried.mispaired();
+  return map_ ? map_->carried().mispaired() : 0;
+}
+
 std::map<FeatureId, FeatureId> RecordingRun::hiddenNames() const {
+  if (labels_) return labels_->carried.names();
   if (!map_) return {};
-  std::map<FeatureId, FeatureId> names = map_->names();
+  std::map<FeatureId, FeatureId> names = map_->carried().names();
   std::erase_if(names, [this](const auto& named) { return !map_->confirmed(named.first); });
   return names;
 }
@@ -154,7 +178,7 @@ void RecordingRun::sense(std::size_t index) {
     return;
   }
   filter_.observe(sightings.time, observationsOf(sightings));
-  watchIds(sightings);
+  if (!idsHidden()) watchIds(sightings);
 }
 
 /// Notes ids whose sightings fall outside the gate time after time.
@@ -200,7 +224,7 @@ void RecordingRun::publishTruth(nanoseconds time) {
   Truth truth;
   truth.pose = recording_.truthAt(time).value_or(Eigen::Vector3d::Constant(kUnknown));
   for (const auto& [id, feature] : recording_.truth_features) {
-    if (map_) break;  // the map's numbers are not these ids
+    if (idsHidden()) break;  // the map's numbers are not these ids
     truth.ids.push_back(id);
     truth.features.push_back(feature);
   }

@@ -10,17 +10,14 @@
 
 #include "slam/dead_reckoning.hpp"
 #include "slam/ekf_slam.hpp"
+#include "slam/hypothesis_search.hpp"
+#include "slam/labelled_recording.hpp"
 #include "slam/laser_front_end.hpp"
 #include "slam/map_builder.hpp"
 #include "slam/recording.hpp"
+#include "slam/view_limits.hpp"
 
 namespace slamscope::slam {
-
-/// What a sensor of sightings surely sees: out to `range` (m), `half_angle` (rad) left and right.
-struct ViewLimits {
-  double range = 0.0;
-  double half_angle = 0.0;
-};
 
 /// Noise, gates and association of a filter on recorded data. The defaults suit slow indoor robots
 /// with wheel odometry and a camera (MR.CLAM). Too tight noise makes a filter sure of a wrong map;
@@ -40,8 +37,11 @@ struct RecordingRunOptions {
   /// little too sure.
   std::optional<double> gate_probability = 0.9999;
   Association association = Association::known;
-  AssociationGates gates{};          ///< of `nearest` and `joint`
-  FeatureLifeOptions life{};         ///< of `nearest` and `joint`
+  AssociationGates gates{};   ///< of `nearest` and `joint`
+  FeatureLifeOptions life{};  ///< of `nearest` and `joint`
+  /// With `joint`: where hypotheses are asked for, the recording is gone through before the run,
+  /// and the run takes the best one's labels as ids. `gates`, `life` and `view` have no say then.
+  HypothesisOptions hypotheses{};
   std::optional<ViewLimits> view{};  ///< where absent, sightings that do not come are not missed
   LaserPointOptions laser{};         ///< where the recording has scans
   bool record_jacobians = false;
@@ -59,7 +59,7 @@ struct RecordingRunOptions {
 class RecordingRun {
  public:
   /// Throws std::invalid_argument for options out of range, and for known association where the
-  /// recording knows no ids.
+  /// recording knows no ids. Hypotheses are searched here, which takes as long as a run or longer.
   RecordingRun(Recording recording, const RecordingRunOptions& options);
   RecordingRun(const RecordingRun&) = delete;
   RecordingRun& operator=(const RecordingRun&) = delete;
@@ -84,7 +84,7 @@ class RecordingRun {
   [[nodiscard]] std::optional<MapCounters> mapCounters() const;
   /// Readings that were paired with a feature of which most readings carry another id: what the
   /// association got wrong, where ids are known and were only hidden from it.
-  [[nodiscard]] std::uint64_t mispaired() const { return map_ ? map_->mispaired() : 0; }
+  [[nodiscard]] std::uint64_t mispaired() const;
   /// Feature → id of the recording, for confirmed features where ids are hidden from the filter.
   [[nodiscard]] std::map<FeatureId, FeatureId> hiddenNames() const;
   /// What people should know of the run so far, one line each: ids that seem to be used for another
@@ -94,6 +94,7 @@ class RecordingRun {
  private:
   void predictTo(std::chrono::nanoseconds time);
   void sense(std::size_t index);
+  [[nodiscard]] bool idsHidden() const { return map_ || labels_; }
   [[nodiscard]] std::vector<Observation> observationsOf(const Sightings& sightings) const;
   [[nodiscard]] MapBuilder::View limitedView() const;
   void watchIds(const Sightings& sightings);
@@ -101,6 +102,7 @@ class RecordingRun {
 
   Recording recording_;
   RecordingRunOptions options_;
+  std::optional<LabelledReadings> labels_;  ///< by hypotheses; the recording has them
   EkfSlam filter_;
   DeadReckoning dead_reckoning_;
   std::optional<LaserFrontEnd> front_end_;

@@ -20,7 +20,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kSlamHelp =
     "Examples:\n"
     "  slamscope slam --mrclam DIR --robot 3 --score -o run.jsonl.zst\n"
-    "  slamscope slam --mrclam DIR --robot 3 --association joint --score\n"
+    "  slamscope slam --mrclam DIR --robot 3 --association joint --hypotheses 50 --score\n"
     "  slamscope slam --csv DIR --sensor-sigma 0.1,0.02 -o run.jsonl\n"
     "  slamscope slam --csv DIR --vehicle ackermann --wheelbase 2.83 --laser 3.78,0.5,0 --score\n"
     "  slamscope slam --victoria-park DIR --score\n"
@@ -52,6 +52,12 @@ constexpr const char* kSlamHelp =
     "  in view and not seen --drop times in a row. A laser knows what it looks past; for other "
     "sensors\n"
     "  say --view RANGE,DEGREES.\n"
+    "Among close features or after blind drives\n"
+    "  --hypotheses 50: where it can't be told what a sighting of range and bearing is of, all\n"
+    "  stories go on until one is much likelier. The run then takes the best one's names as ids.\n"
+    "  State noise as it is, not wide, and --view as what may well be seen. Features of less than\n"
+    "  --confirm sightings (4) are left out; --fresh-density (2e-5) says how readily a new one is\n"
+    "  believed in.\n"
     "\n"
     "DIR of --csv: odometry.csv (time_s,forward_mps,turn_radps or time_s,speed_mps,steering_rad "
     "or\n"
@@ -154,6 +160,17 @@ void addAssociation(CLI::App& verb, SlamFlags& flags) {
                   "s; a tentative feature that was not seen for so long goes; 0: never")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
+  verb.add_option("--hypotheses", flags.hypotheses,
+                  "joint, but go through the recording first with so many maps side by side, one "
+                  "for each story of what the sightings are of, and let the whole recording decide "
+                  "(range and bearing, tens of features); 0: decide at once")
+      ->check(CLI::Range(0, 100000))
+      ->group(group);
+  verb.add_option("--error-memory", flags.error_memory,
+                  "s for which the range of a feature stays wrong once it is (--hypotheses); 0: "
+                  "each sighting errs by itself; default 3")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
   verb.add_option("--separation", flags.separation,
                   "features nearer to each other than this are one, m; 0: never")
       ->check(CLI::NonNegativeNumber)
@@ -214,8 +231,27 @@ slam::Recording readInput(const SlamFlags& flags) {
 slam::Association associationOf(const SlamFlags& flags, const slam::Recording& recording) {
   if (flags.association == "nearest") return slam::Association::nearest;
   if (flags.association == "joint") return slam::Association::joint;
+  if (flags.association.empty() && flags.hypotheses > 0) return slam::Association::joint;
   if (flags.association == "known" || recording.ids_known) return slam::Association::known;
   return slam::Association::joint;
+}
+
+/// What the flags say of hypotheses. Noise that is stated is all there is: a range's does not grow
+/// with it, nor the odometry's with turns.
+void setHypotheses(const SlamFlags& flags, slam::HypothesisOptions& options) {
+  if (!flags.sensor_sigma.empty()) {
+    options.error.range_sigma = flags.sensor_sigma.at(0);
+    options.error.range_share = 0.0;
+    options.error.bearing_sigma = flags.sensor_sigma.at(1);
+  }
+  if (flags.error_memory) options.error = options.error.withMemory(*flags.error_memory);
+  if (!flags.odometry_sigma.empty()) {
+    options.odometry_sigma = three(flags.odometry_sigma);
+    options.turn_sigma = 0.0;
+  }
+  if (!flags.view.empty()) options.view = {flags.view.at(0), flags.view.at(1) * kDegree};
+  options.fresh_density = flags.fresh_density.value_or(options.fresh_density);
+  options.confirm_after = flags.confirm.value_or(options.confirm_after);
 }
 
 }  // namespace
@@ -252,8 +288,9 @@ slam::Recording readRecording(const SlamFlags& flags) {
 
 slam::RecordingRunOptions runOptions(const SlamFlags& flags, const slam::Recording& recording) {
   slam::RecordingRunOptions options =
-      flags.laser_lab.loops > 0 ? slam::LaserLab(flags.laser_lab).runOptions()
-                                : slam::usualOptions(recording, associationOf(flags, recording));
+      flags.laser_lab.loops > 0
+          ? slam::LaserLab(flags.laser_lab).runOptions()
+          : slam::usualOptions(recording, associationOf(flags, recording), flags.hypotheses);
   options.association = associationOf(flags, recording);
   options.gates.fresh = flags.fresh_gate.value_or(options.gates.fresh);
   options.gates.fresh_density = flags.fresh_density.value_or(options.gates.fresh_density);
@@ -283,6 +320,8 @@ slam::RecordingRunOptions runOptions(const SlamFlags& flags, const slam::Recordi
     options.laser.max_diameter = flags.diameters.at(1);
   }
   if (!flags.view.empty()) options.view = {flags.view.at(0), flags.view.at(1) * kDegree};
+  options.hypotheses.most = flags.hypotheses;
+  setHypotheses(flags, options.hypotheses);
   return options;
 }
 

@@ -44,8 +44,10 @@ struct SlamFlags {
   std::optional<int> drop;
   std::optional<int> drop_confirmed;
   std::optional<double> longest_doubt;  ///< s
-  std::optional<double> separation;     ///< m
-  std::optional<double> laser_range;    ///< m
+  int hypotheses = 0;
+  std::optional<double> error_memory;  ///< s
+  std::optional<double> separation;    ///< m
+  std::optional<double> laser_range;   ///< m
   std::optional<double> reflector;
 
   std::string record = "steps";

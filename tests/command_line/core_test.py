@@ -151,6 +151,17 @@ class Csv(program.InAFolder):
             self.assertEqual(self.load("s.json")["features"], 2)
         self.refused("slam", "--csv", "d", "--association", "known", saying=["nearest or joint"])
 
+    def test_hypotheses_hide_ids_and_say_what_they_go_with(self):
+        self.data()
+        status, _, errors = self.run_here("slam", "--csv", "d", "--hypotheses", 5, "--confirm", 1,
+                                          "--score-json", "s.json")
+        self.assertEqual(status, 0, errors)
+        self.assertEqual(self.load("s.json")["born"], 2)
+        self.refused("slam", "--csv", "d", "--hypotheses", 5, "--association", "nearest",
+                     saying=["hypotheses", "joint"])
+        self.refused("slam", "--laser-lab", 1, "--hypotheses", 5, saying=["range and bearing"])
+        self.refused("slam", "--csv", "d", "--hypotheses", -1, saying=["--hypotheses"])
+
     def test_a_car_with_a_laser(self):
         self.write("d/odometry.csv", "time_s,speed_mps,steering_rad\n0,1,0\n1,1,0\n2,1,0\n")
         far = ",".join(["9"] * 50)
@@ -206,6 +217,13 @@ class Mrclam(program.InAFolder):
             self.assertEqual(score["features_found"], 15)
             self.assertLessEqual(score["features_rms_aligned_m"], 0.15)
             self.assertLessEqual(score["path_rms_aligned_m"], 0.5)
+
+    def test_hypotheses_find_each_landmark_once_without_ids(self):
+        status, _, errors = self.run_here("slam", "--mrclam", self.mrclam, "--robot", 4,
+                                          "--hypotheses", 50, "--score-json", "s.json")
+        self.assertEqual(status, 0, errors)
+        score = self.load("s.json")
+        self.assertEqual((score["features"], score["features_found"], score["duplicates"]), (15, 15, 0))
 
     def test_the_audit_finds_no_code_fault_and_says_that_the_noise_is_assumed_too_large(self):
         for robot in range(1, 6):

@@ -47,6 +47,8 @@ int main(int argc, char** argv) {
       app.add_subcommand("association", "nearest and joint in an ambiguous world");
   experiments::AssociationTableOptions ambiguous;
   association->add_option("--seeds", ambiguous.seeds, "runs of each line")->capture_default_str();
+  association->add_option("--hypotheses", ambiguous.hypotheses, "maps side by side")
+      ->capture_default_str();
   association->add_option("--threads", ambiguous.threads, "0: one per core")->capture_default_str();
   CLI::App* consistency = app.add_subcommand("consistency", "NIS and ANEES over the models");
   experiments::ConsistencyTableOptions models;

@@ -320,11 +320,7 @@ struct MappedRun {
 MappedRun driveAmbiguousWorld(Association association) {
   AmbiguousWorldOptions world;
   world.spacing = 0.5;
-  RecordingRunOptions options;
-  options.association = association;
-  options.sensor_sigma = world.sensor_sigma;
-  options.odometry_sigma = {world.forward_sigma, 0.001, world.turn_sigma};
-  RecordingRun run(recordAmbiguousWorld(world), options);
+  RecordingRun run(recordAmbiguousWorld(world), ambiguousWorldRun(world, association));
   const Scorer scorer(run.filter());
   while (run.step()) {
   }
