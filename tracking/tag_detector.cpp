@@ -212,7 +212,9 @@ std::optional<TagDetection> TagDetector::Impl::followOne(const ImageView& grey,
   const auto corners = refined(grey, expected.corners_px);
   if (!corners) return std::nullopt;
   const PrintMatch match = comparePrint(grey, corners->px, printOf(expected.id));
-  if (match.wrong > options.max_hamming || match.margin < options.min_margin) return std::nullopt;
+  if (!match.whole_edge || match.wrong > options.max_hamming || match.margin < options.min_margin) {
+    return std::nullopt;
+  }
   return TagDetection{.id = expected.id,
                       .corners_px = corners->px,
                       .sigma_px = corners->sigma_px,
@@ -239,7 +241,11 @@ void TagDetector::Impl::search(const ImageView& grey, const PixelRegion& region,
     apriltag_detection_t* one = nullptr;
     zarray_get(found, i, &one);
     if (one->decision_margin < options.min_margin) continue;
-    tags.push_back(convert(*one, grey, {region.left, region.top}));
+    TagDetection tag = convert(*one, grey, {region.left, region.top});
+    // The edge of the picture makes a side of its own of a tag that it cuts.
+    if (comparePrint(grey, tag.corners_px, printOf(tag.id)).in_picture) {
+      tags.push_back(std::move(tag));
+    }
   }
   apriltag_detections_destroy(found);
 }

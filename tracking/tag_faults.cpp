@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Isometry3d, Eigen::Vector3d;
 
-constexpr int kWindow = 10, kVotes = 3;
+constexpr int kWindow = 10, kVotes = 6;
 constexpr double kSameRay = 0.006;  // rad
 constexpr double kOtherSize = 0.03;
 constexpr double kNear = 0.5;  // sides of a tag

@@ -2,6 +2,7 @@
 #include "tracking/tag_print.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -54,19 +55,22 @@ PrintMatch comparePrint(const ImageView& grey, const std::array<Vector2d, 4>& co
       const Vector3d p =
           H * Vector3d((column - print.border + 0.5) * cell, (row - print.border + 0.5) * cell, 1);
       seen.push_back(greyAt(grey, p.hnormalized()));
-      if (!std::isfinite(seen.back())) continue;
       sum[print.black(column, row) ? 1 : 0] += seen.back();
       ++count[print.black(column, row) ? 1 : 0];
     }
   }
-  PrintMatch match;
-  if (count[0] == 0 || count[1] == 0) return {.wrong = print.size * print.size, .margin = 0};
   const double white = sum[0] / count[0], black = sum[1] / count[1];
+  PrintMatch match;
+  if (!std::isfinite(white + black)) return {.whole_edge = false, .in_picture = false};
   match.margin = (white - black) / 2;
   const double between = (white + black) / 2;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const bool right = print.is_black[i] ? seen[i] < between : seen[i] > between;
-    if (!right) ++match.wrong;
+    if (print.is_black[i] ? seen[i] < between : seen[i] > between) continue;
+    ++match.wrong;
+    const int size = print.size;
+    const int row = static_cast<int>(i) / size, column = static_cast<int>(i) % size;
+    const int from_edge = std::min({row, column, size - 1 - row, size - 1 - column});
+    if (from_edge == print.border - 1 || from_edge == print.border) match.whole_edge = false;
   }
   return match;
 }

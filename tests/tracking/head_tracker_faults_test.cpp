@@ -89,7 +89,7 @@ TEST(HeadTrackerFaults, NamesATagThatIsSeenTwice) {
   room.head = standingHead();
   const auto ids = inView(room);
   HeadTracker tracker(room.rig, room.truth);
-  for (int k = 0; k < 5; ++k) {
+  for (int k = 0; k < 8; ++k) {
     auto pictures = room.pair(atFrame(k));
     for (HeadPicture& picture : pictures) {
       TagDetection copy = picture.tags.front();

@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include "rendered_tag.hpp"
+#include "tracking/tag_cells.hpp"
+#include "tracking/tag_print.hpp"
 
 namespace slamscope::tracking {
 namespace {
@@ -161,6 +163,44 @@ TEST(TagDetector, FollowedTagsHaveTheCornersOfSearchedOnes) {
   const ExpectedTag far = expectedAt(7, truth, {60, 60});
   EXPECT_TRUE(
       detector.follow(view(picture), std::span(&far, 1), {.margin_px = 2, .also = {}}).empty());
+}
+
+TEST(TagDetector, ACoveredEdgeAndTheEdgeOfThePictureAreSeenInThePrint) {
+  const auto [picture, truth] = seenTag();
+  const TagCells print = tagCells("36h11", 7);
+  const PrintMatch whole = comparePrint(view(picture), truth, print);
+  EXPECT_EQ(whole.wrong, 0);
+  EXPECT_TRUE(whole.whole_edge);
+  Picture covered = picture;  // a white spot in the middle of the upper side
+  const Vector2d middle = (truth[3] + truth[2]) / 2;
+  for (int row = -4; row <= 4; ++row) {
+    for (int column = -4; column <= 4; ++column) {
+      const auto y = static_cast<std::size_t>(std::lround(middle.y()) + row);
+      const auto x = static_cast<std::size_t>(std::lround(middle.x()) + column);
+      covered.grey[y * static_cast<std::size_t>(covered.width) + x] = 250;
+    }
+  }
+  const PrintMatch spot = comparePrint(view(covered), truth, print);
+  EXPECT_LE(spot.wrong, 2) << "or it is too much for the code anyway";
+  EXPECT_FALSE(spot.whole_edge);
+  ImageView cut = view(picture);
+  cut.width = static_cast<int>(std::max(truth[1].x(), truth[2].x()));
+  EXPECT_FALSE(comparePrint(cut, truth, print).in_picture);
+}
+
+TEST(TagDetector, ATagThatThePictureCutsIsNotTakenForAWholeOne) {
+  const auto [picture, truth] = seenTag();
+  double right = 0;
+  for (const Vector2d& corner : truth) right = std::max(right, corner.x());
+  TagDetector detector;
+  for (const double cut_px : {-12.0, -3.0, 0.0, 2.0}) {
+    ImageView cut = view(picture);
+    cut.width = static_cast<int>(right + cut_px);
+    const ExpectedTag expected = expectedAt(7, truth, {0, 0});
+    EXPECT_TRUE(detector.detect(cut).empty()) << cut_px;
+    EXPECT_TRUE(detector.follow(cut, std::span(&expected, 1)).empty()) << cut_px;
+  }
+  EXPECT_EQ(detector.detect(view(picture)).size(), 1U);
 }
 
 TEST(TagDetector, AnotherTagInTheExpectedPlaceIsSeenForWhatItIs) {
