@@ -17,8 +17,9 @@ RecordingRunOptions usualOptions(const Recording& recording, Association associa
     options.hypotheses.odometry_sigma = options.odometry_sigma;
     options.hypotheses.turn_sigma = 0.0;  // that is how wheels of slow robots err
   }
-  if (association == Association::known || hypotheses > 0 || !recording.scans.empty())
+  if (association == Association::known || hypotheses > 0 || !recording.scans.empty()) {
     return options;
+  }
   options.sensor_sigma = {0.35, 0.06};
   options.gates.pair = 0.9999;
   options.gates.fresh = 0.999999;

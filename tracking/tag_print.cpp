@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 namespace slamscope::tracking {
@@ -12,21 +13,15 @@ namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 
-/// Homography from the unit square, (0, 0) the tag's upper left corner and y down, to pixels
-/// (Heckbert, "Fundamentals of Texture Mapping and Image Warping", 2.2.3).
+/// Homography from the unit square, (0, 0) the tag's upper left corner and y down, to pixels.
 Matrix3d squareToPixels(const std::array<Vector2d, 4>& corners_px) {
-  const Vector2d &p01 = corners_px[0], &p11 = corners_px[1], &p10 = corners_px[2],
-                 &p00 = corners_px[3];
-  const Vector2d d1 = p10 - p11, d2 = p01 - p11, sum = p00 - p10 + p11 - p01;
-  const auto cross = [](const Vector2d& a, const Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-  };
-  const double g = cross(sum, d2) / cross(d1, d2), h = cross(d1, sum) / cross(d1, d2);
-  Matrix3d H;
-  H.col(0) << p10 - p00 + g * p10, g;
-  H.col(1) << p01 - p00 + h * p01, h;
-  H.col(2) << p00, 1;
-  return H;
+  const std::array<cv::Point2f, 4> square{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+  std::array<cv::Point2f, 4> px;
+  for (std::size_t i = 0; i < 4; ++i) {
+    px[i] = {static_cast<float>(corners_px[i].x()), static_cast<float>(corners_px[i].y())};
+  }
+  const cv::Mat H = cv::getPerspectiveTransform(square.data(), px.data());
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(H.ptr<double>());
 }
 
 /// Grey level between pixels; NaN out of the picture.
