@@ -5,11 +5,11 @@
 #include <array>
 #include <cctype>
 #include <functional>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <regex>
 #include <stdexcept>
 
+#include "tracking/codecs.hpp"
 #include "tracking/frame_source.hpp"
 #include "tracking/stamps.hpp"
 
@@ -30,23 +30,22 @@ class ImageSource final : public FrameSource {
 
   std::optional<Frame> next() override {
     if (next_ == pictures_.size()) return std::nullopt;
-    const Picture& picture = pictures_[next_];
-    const std::string name = picture.file.string();
-    const cv::Mat image = cv::imread(name, cv::IMREAD_COLOR);
-    if (image.empty()) throw std::runtime_error(name + ": can't be read as a picture");
-    if (next_ > 0 && (image.cols != width_ || image.rows != height_))
-      throw std::runtime_error(name + ": is " + std::to_string(image.cols) + " x " +
-                               std::to_string(image.rows) + " px, the frames before it " +
+    const auto& [file, time] = pictures_[next_];
+    const std::string name = file.string();
+    std::optional<BgrPicture> picture = codecs().read(file);
+    if (!picture) throw std::runtime_error(name + ": can't be read as a picture");
+    if (next_ > 0 && (picture->width != width_ || picture->height != height_))
+      throw std::runtime_error(name + ": is " + std::to_string(picture->width) + " x " +
+                               std::to_string(picture->height) + " px, the frames before it " +
                                std::to_string(width_) + " x " + std::to_string(height_));
-    width_ = image.cols;
-    height_ = image.rows;
-    const cv::Mat packed = image.isContinuous() ? image : image.clone();
-    return Frame{.time = picture.time,
+    width_ = picture->width;
+    height_ = picture->height;
+    return Frame{.time = time,
                  .sequence = next_++,
                  .source = name,
                  .width = width_,
                  .height = height_,
-                 .bgr = {packed.data, packed.data + packed.total() * packed.elemSize()}};
+                 .bgr = std::move(picture->bgr)};
   }
   bool stamped() const override { return stamped_; }
   std::optional<std::uint64_t> count() const override { return pictures_.size(); }

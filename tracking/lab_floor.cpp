@@ -64,11 +64,15 @@ float Floor::marble(double x, double y) const {
          fv * ((1 - fu) * b[left] + fu * b[right]);
 }
 
-Floor::Sample Floor::at(const Eigen::Vector2d& p_world) const {
+bool Floor::isTape(const Eigen::Vector2d& p_world) {
   const double edge = p_world.cwiseAbs().maxCoeff() - kField;
-  if (edge >= 0 && edge < kTapeWidth) {
+  return edge >= 0 && edge < kTapeWidth;
+}
+
+Eigen::Array3f Floor::at(const Eigen::Vector2d& p_world) const {
+  if (isTape(p_world)) {
     const float wear = marble(2.3 * p_world.x(), 2.3 * p_world.y());
-    return {.albedo = Eigen::Array3f(150, 92, 38) * (1 + 0.07F * wear), .tape = true};
+    return Eigen::Array3f(150, 92, 38) * (1 + 0.07F * wear);
   }
   // The field's edge does not fall on a joint.
   const double x = p_world.x() / kTile + 0.31, y = p_world.y() / kTile + 0.17;
@@ -85,7 +89,7 @@ Floor::Sample Floor::at(const Eigen::Vector2d& p_world) const {
   const float warmth = 0.018F * (2 * random01(tile ^ 4) - 1) + 0.02F * value;
   const auto joint = static_cast<float>(std::max(0.0, 1 - from_joint / (2 * kJoint)));
   const Eigen::Array3f base(174, 177, 174);
-  return {.albedo = base * Eigen::Array3f(1 - warmth, 1, 1 + warmth) * (shade - 0.28F * joint)};
+  return base * Eigen::Array3f(1 - warmth, 1, 1 + warmth) * (shade - 0.28F * joint);
 }
 
 }  // namespace slamscope::tracking::lab

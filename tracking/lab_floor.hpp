@@ -21,11 +21,10 @@ class Floor {
  public:
   explicit Floor(std::uint64_t seed);
 
-  struct Sample {
-    Eigen::Array3f albedo;  ///< blue, green, red, of 255
-    bool tape = false;
-  };
-  [[nodiscard]] Sample at(const Eigen::Vector2d& p_world) const;
+  /// On the tape around the field.
+  [[nodiscard]] static bool isTape(const Eigen::Vector2d& p_world);
+  /// Albedo: blue, green, red, of 255.
+  [[nodiscard]] Eigen::Array3f at(const Eigen::Vector2d& p_world) const;
 
  private:
   [[nodiscard]] float marble(double x, double y) const;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "tracking/lab_lattice.hpp"
+#include "tracking/lab_pixel.hpp"
 
 namespace slamscope::tracking::lab {
 namespace {
@@ -35,12 +36,17 @@ std::size_t Motion::at(double row, double moment) const {
   return static_cast<std::size_t>(std::lround(part * last));
 }
 
+struct Painter::Corner {
+  int part;
+  Eigen::Array3f colour;
+};
+
 /// What is seen through the corners of a region's pixels.
 struct Painter::Corners {
   Region region;
-  std::vector<Sample> samples;  // one more than pixels, both ways
+  std::vector<Corner> samples;  // one more than pixels, both ways
 
-  [[nodiscard]] const Sample& at(int column, int row) const {
+  [[nodiscard]] const Corner& at(int column, int row) const {
     const int width = region.right - region.left + 1;
     return samples[static_cast<std::size_t>(row - region.top) * width + (column - region.left)];
   }
@@ -81,7 +87,7 @@ Painter::Painter(const LabOptions& options, const Room& room, const Robot& robot
 }
 
 Painter::Corners Painter::traceCorners(const Region& region,
-                                       const std::function<Sample(int, int)>& trace) const {
+                                       const std::function<Corner(int, int)>& trace) {
   const int width = region.right - region.left + 1, height = region.bottom - region.top + 1;
   Corners corners{.region = region, .samples = {}};
   corners.samples.resize(static_cast<std::size_t>(width) * height);
@@ -94,10 +100,13 @@ Painter::Corners Painter::traceCorners(const Region& region,
 }
 
 Eigen::Array3f Painter::sampleRoom(int column, int row, const Room::Candidates& of) const {
-  Eigen::Array3f sum = Eigen::Array3f::Zero();
-  for (const LatticePoint& p : kFine)
-    sum += room_.trace(rayInWorld(lens_.direction(column, row, p.x, p.y)), of).colour;
-  return sum / static_cast<float>(kFine.size());
+  PixelMean pixel;
+  for (const LatticePoint& p : kFine) {
+    const Ray ray = rayInWorld(lens_.direction(column, row, p.x, p.y));
+    const Sight sight = room_.trace(ray, of);
+    pixel.add(sight.part, [&] { return room_.colour(ray, sight); });
+  }
+  return pixel.mean();
 }
 
 void Painter::paintBackground() {
@@ -119,7 +128,9 @@ void Painter::paintBackground() {
     return blocks[static_cast<std::size_t>(row / kBlock) * across + column / kBlock];
   };
   const Corners corners = traceCorners(all, [&](int column, int row) {
-    return room_.trace(rayInWorld(lens_.corner(column, row)), seen(column, row));
+    const Ray ray = rayInWorld(lens_.corner(column, row));
+    const Sight sight = room_.trace(ray, seen(column, row));
+    return Corner{.part = sight.part, .colour = room_.colour(ray, sight)};
   });
   background_ = {.width = all.right, .height = all.bottom, .pixels = {}};
   background_.pixels.resize(static_cast<std::size_t>(all.right) * all.bottom);
@@ -130,7 +141,7 @@ void Painter::paintBackground() {
                                         : sampleRoom(column, row, seen(column, row));
   });
   solids_.reserve(corners.samples.size());
-  for (const Sample& sample : corners.samples) solids_.push_back(Room::isSolid(sample.part));
+  for (const Corner& corner : corners.samples) solids_.push_back(Room::isSolid(corner.part));
 }
 
 bool Painter::solidsNear(int column, int row) const {
@@ -140,16 +151,25 @@ bool Painter::solidsNear(int column, int row) const {
   return false;
 }
 
-Sample Painter::traceRobot(const Eigen::Vector3d& direction, const Exposure& exposure,
-                           std::size_t pose, bool solids) const {
+Ray Painter::rayInRobot(const Eigen::Vector3d& direction, const Exposure& exposure,
+                        std::size_t pose) {
   const Eigen::Isometry3d& T_robot_camera = exposure.T_robot_camera[pose];
-  const Sample sample =
-      robot_.trace({T_robot_camera.translation(), T_robot_camera.linear() * direction},
-                   exposure.motion.T_world_robot[pose]);
+  return {T_robot_camera.translation(), T_robot_camera.linear() * direction};
+}
+
+Sight Painter::traceRobot(const Eigen::Vector3d& direction, const Exposure& exposure,
+                          std::size_t pose, bool solids) const {
+  const Sight sight = robot_.trace(rayInRobot(direction, exposure, pose));
   // The ray's parameter is the same in both frames.
-  if (solids && sample.part >= 0 && room_.distanceToSolids(rayInWorld(direction)) < sample.t)
+  if (solids && sight.part >= 0 && room_.distanceToSolids(rayInWorld(direction)) < sight.t)
     return {};
-  return sample;
+  return sight;
+}
+
+Eigen::Array3f Painter::robotsColour(const Eigen::Vector3d& direction, const Exposure& exposure,
+                                     std::size_t pose, const Sight& sight) const {
+  return robot_.colour(rayInRobot(direction, exposure, pose), sight,
+                       exposure.motion.T_world_robot[pose]);
 }
 
 Eigen::Array3f Painter::sampleRobot(int column, int row, const Exposure& exposure,
@@ -159,17 +179,16 @@ Eigen::Array3f Painter::sampleRobot(int column, int row, const Exposure& exposur
       rests ? std::span<const LatticePoint>(kFine) : std::span<const LatticePoint>(kQuick);
   const double place = (row + 0.5) / lens_.height();
   const bool solids = solidsNear(column, row);
-  Eigen::Array3f sum = Eigen::Array3f::Zero();
-  int missed = 0;
+  PixelMean pixel;
   for (const LatticePoint& p : lattice) {
-    const Sample sample = traceRobot(lens_.direction(column, row, p.x, p.y), exposure,
-                                     exposure.motion.at(place, p.moment), solids);
-    if (sample.part < 0)
-      ++missed;
-    else
-      sum += sample.colour;
+    const Eigen::Vector3d direction = lens_.direction(column, row, p.x, p.y);
+    const std::size_t pose = exposure.motion.at(place, p.moment);
+    const Sight sight = traceRobot(direction, exposure, pose, solids);
+    pixel.add(sight.part, [&]() -> Eigen::Array3f {
+      return sight.part < 0 ? behind : robotsColour(direction, exposure, pose, sight);
+    });
   }
-  return (sum + static_cast<float>(missed) * behind) / static_cast<float>(lattice.size());
+  return pixel.mean();
 }
 
 /// How much of the light on the floor a blocker leaves, seen through the upper left corner of a
@@ -258,7 +277,11 @@ void Painter::paintRobot(Canvas& canvas, const Region& region, const Motion& mot
   const Exposure exposure(motion, T_world_camera_);
   const Corners corners = traceCorners(region, [&](int column, int row) {
     const std::size_t pose = motion.at(static_cast<double>(row) / lens_.height(), 0.5);
-    return traceRobot(lens_.corner(column, row), exposure, pose, solidsNear(column, row));
+    const Eigen::Vector3d direction = lens_.corner(column, row);
+    const Sight sight = traceRobot(direction, exposure, pose, solidsNear(column, row));
+    Corner corner{.part = sight.part, .colour = Eigen::Array3f::Zero()};
+    if (sight.part >= 0) corner.colour = robotsColour(direction, exposure, pose, sight);
+    return corner;
   });
   paintShadow(canvas, region, Robot::blocker(motion.T_world_robot[motion.middle()]));
   const int around = 1 + blurPixels(motion);

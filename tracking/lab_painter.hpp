@@ -57,18 +57,24 @@ class Painter {
   void paintRobot(Canvas& canvas, const Region& region, const Motion& motion) const;
 
  private:
+  struct Corner;
   struct Corners;
   struct Exposure;
   void paintBackground();
-  [[nodiscard]] Corners traceCorners(const Region& region,
-                                     const std::function<Sample(int, int)>& trace) const;
+  [[nodiscard]] static Corners traceCorners(const Region& region,
+                                            const std::function<Corner(int, int)>& trace);
   [[nodiscard]] Ray rayInWorld(const Eigen::Vector3d& direction) const {
     return {T_world_camera_.translation(), T_world_camera_.linear() * direction};
   }
   /// A solid of the room may be seen in this pixel.
   [[nodiscard]] bool solidsNear(int column, int row) const;
-  [[nodiscard]] Sample traceRobot(const Eigen::Vector3d& direction, const Exposure& exposure,
-                                  std::size_t pose, bool solids) const;
+  [[nodiscard]] static Ray rayInRobot(const Eigen::Vector3d& direction, const Exposure& exposure,
+                                      std::size_t pose);
+  [[nodiscard]] Sight traceRobot(const Eigen::Vector3d& direction, const Exposure& exposure,
+                                 std::size_t pose, bool solids) const;
+  [[nodiscard]] Eigen::Array3f robotsColour(const Eigen::Vector3d& direction,
+                                            const Exposure& exposure, std::size_t pose,
+                                            const Sight& sight) const;
   [[nodiscard]] Eigen::Array3f sampleRoom(int column, int row, const Room::Candidates& of) const;
   [[nodiscard]] Eigen::Array3f sampleRobot(int column, int row, const Exposure& exposure,
                                            const Eigen::Array3f& behind) const;

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kTop = 0.19;                             // of all but the tag, m
 constexpr double kBodyRadius = 0.18, kBodyHeight = 0.16;  // as far as light is concerned, m
-constexpr int kTagPart = 1, kWheelPart = 10, kBlockPart = 100;
+constexpr int kTagBlack = 1, kTagWhite = 2, kWheelPart = 10, kBlockPart = 100;
+constexpr int kSonar = 15;  // of one block
 
 /// Bright part of a sonar's ring, by place on the rim.
 bool isSonar(const Eigen::Vector3d& p) {
@@ -63,60 +64,66 @@ Robot::Robot(const LabOptions& options)
   tag_on_top_ = T_tag_robot_.linear()(2, 2) > 1 - 1e-9 && tag.z() > kTop;
 }
 
-/// What a ray has met so far.
-struct Robot::Surface {
-  double t = std::numeric_limits<double>::infinity();
-  int part = -1;
-  Eigen::Array3f paint = Eigen::Array3f::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-};
-
-void Robot::traceTag(const Ray& ray, Surface& nearest) const {
+void Robot::traceTag(const Ray& ray, Sight& nearest) const {
   const TagFace::TagHit hit = tag_.intersect(T_tag_robot_ * ray);
   if (!hit) return;
-  nearest = {.t = hit.t,
-             .part = kTagPart + (hit.ink == TagFace::Ink::white ? 1 : 0),
-             .paint = albedo(hit.ink),
+  nearest = {.part = hit.ink == TagFace::Ink::white ? kTagWhite : kTagBlack,
+             .t = hit.t,
              .normal = T_tag_robot_.linear().row(2).transpose()};
 }
 
-void Robot::traceBody(const Ray& ray, Surface& nearest) const {
+void Robot::traceBody(const Ray& ray, Sight& nearest) const {
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     const Hit hit = intersect(ray, wheels_[i]);
     if (hit.t >= nearest.t) continue;
     const bool flank = std::abs(hit.normal.y()) > 0.5;
-    nearest = {.t = hit.t,
-               .part = kWheelPart + 2 * static_cast<int>(i) + (flank ? 1 : 0),
-               .paint = flank ? Eigen::Array3f(130, 130, 130) : Eigen::Array3f(44, 42, 41),
+    nearest = {.part = kWheelPart + 2 * static_cast<int>(i) + (flank ? 1 : 0),
+               .t = hit.t,
                .normal = hit.normal};
   }
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const Hit hit = intersect(ray, blocks_[i].shape);
     if (hit.t >= nearest.t) continue;
     const bool sonar = i == 0 && hit.normal.z() < 0.5 && isSonar(ray.at(hit.t));
-    nearest = {.t = hit.t,
-               .part = kBlockPart + 16 * static_cast<int>(i) + (sonar ? 15 : faceOf(hit.normal)),
-               .paint = sonar ? Eigen::Array3f(90, 180, 214) : blocks_[i].albedo,
-               .normal = hit.normal};
+    nearest = {
+        .part = kBlockPart + 16 * static_cast<int>(i) + (sonar ? kSonar : faceOf(hit.normal)),
+        .t = hit.t,
+        .normal = hit.normal};
   }
 }
 
-Sample Robot::trace(const Ray& ray_robot, const Eigen::Isometry3d& T_world_robot) const {
-  if (!ball_.mayBeHit(ray_robot)) return {};
-  Surface surface;
-  traceTag(ray_robot, surface);
+Sight Robot::trace(const Ray& ray_robot) const {
+  Sight nearest;
+  if (!ball_.mayBeHit(ray_robot)) return nearest;
+  traceTag(ray_robot, nearest);
   // Nothing hides a level tag above all the rest.
-  if (surface.part < 0 || !tag_on_top_) traceBody(ray_robot, surface);
-  if (surface.part < 0) return {};
-  const Eigen::Vector3d p = ray_robot.at(surface.t), p_tag = T_tag_robot_ * p;
-  const Light light = openLight(T_world_robot * p, T_world_robot.linear() * surface.normal);
-  Eigen::Array3f colour = surface.paint * tint(light);
+  if (nearest.part < 0 || !tag_on_top_) traceBody(ray_robot, nearest);
+  return nearest;
+}
+
+Eigen::Array3f Robot::paint(int part) const {
+  if (part < kWheelPart)
+    return albedo(part == kTagWhite ? TagFace::Ink::white : TagFace::Ink::black);
+  if (part < kBlockPart) {
+    const bool flank = (part - kWheelPart) % 2 == 1;
+    return flank ? Eigen::Array3f(130, 130, 130) : Eigen::Array3f(44, 42, 41);
+  }
+  const int block = part - kBlockPart;
+  if (block % 16 == kSonar) return {90, 180, 214};
+  return blocks_[static_cast<std::size_t>(block) / 16].albedo;
+}
+
+Eigen::Array3f Robot::colour(const Ray& ray_robot, const Sight& sight,
+                             const Eigen::Isometry3d& T_world_robot) const {
+  const Eigen::Vector3d p = ray_robot.at(sight.t), p_tag = T_tag_robot_ * p;
+  const Light light = openLight(T_world_robot * p, T_world_robot.linear() * sight.normal);
+  Eigen::Array3f colour = paint(sight.part) * tint(light);
   if (p_tag.z() < -0.005) {
     // The tag's board keeps light from the deck below it.
     const double beside = p_tag.head<2>().cwiseAbs().maxCoeff() - tag_.halfPaper();
     colour *= static_cast<float>(1 - 0.5 / (1 + std::exp(beside / (0.01 - 0.15 * p_tag.z()))));
   }
-  return {.colour = colour, .part = surface.part, .t = surface.t};
+  return colour;
 }
 
 Blocker Robot::blocker(const Eigen::Isometry3d& T_world_robot) {

@@ -13,21 +13,24 @@ class Robot {
  public:
   explicit Robot(const LabOptions& options);
 
-  /// What a ray sees of the robot; part −1: misses it.
-  [[nodiscard]] Sample trace(const Ray& ray_robot, const Eigen::Isometry3d& T_world_robot) const;
+  /// What a ray meets of the robot; part −1: misses it. Normal: robot frame.
+  [[nodiscard]] Sight trace(const Ray& ray_robot) const;
+  /// How bright that is, of a robot that stands there: blue, green, red, of 255.
+  [[nodiscard]] Eigen::Array3f colour(const Ray& ray_robot, const Sight& sight,
+                                      const Eigen::Isometry3d& T_world_robot) const;
   /// It blocks light like this, standing there.
   [[nodiscard]] static Blocker blocker(const Eigen::Isometry3d& T_world_robot);
   /// Corners of a box (robot frame) that holds all of it.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& bounds() const { return bounds_; }
 
  private:
-  struct Surface;
   struct Block {
     Prism shape;
     Eigen::Array3f albedo;
   };
-  void traceTag(const Ray& ray, Surface& nearest) const;
-  void traceBody(const Ray& ray, Surface& nearest) const;
+  void traceTag(const Ray& ray, Sight& nearest) const;
+  void traceBody(const Ray& ray, Sight& nearest) const;
+  [[nodiscard]] Eigen::Array3f paint(int part) const;
 
   std::vector<Block> blocks_;
   std::vector<Cylinder> wheels_;

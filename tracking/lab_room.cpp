@@ -9,7 +9,8 @@ namespace {
 
 // Numbers of parts: every kind has a range of its own.
 constexpr int kWalls = 10, kFloor = 0, kTape = 1, kTags = 100, kPosts = 10000, kThings = 1000000;
-constexpr double kFootHeight = 0.005;  // m
+constexpr int kFoot = 0, kShaft = 1, kBand = 2, kCap = 3;  // of one post
+constexpr double kFootHeight = 0.005;                      // m
 
 std::vector<Blocker> blockers(const LabOptions& options) {
   std::vector<Blocker> result;
@@ -124,15 +125,30 @@ Room::Candidates Room::candidates(const Ray& ray_world, double spread) const {
   return {.tags = pick(tags_), .posts = pick(posts_), .things = pick(things_)};
 }
 
-Sample Room::trace(const Ray& ray_world, const Candidates& candidates) const {
-  Sample nearest;
-  nearest.colour = Eigen::Array3f(178, 176, 172);  // the walls, far away
+Sight Room::trace(const Ray& ray_world, const Candidates& candidates) const {
+  Sight nearest;
   traceFloor(ray_world, nearest);
   if (walls_.x() > 0 && walls_.y() > 0) traceWalls(ray_world, nearest);
   traceTags(ray_world, candidates.tags, nearest);
   tracePosts(ray_world, candidates.posts, nearest);
   traceThings(ray_world, candidates.things, nearest);
   return nearest;
+}
+
+Eigen::Array3f Room::colour(const Ray& ray_world, const Sight& sight) const {
+  if (sight.part < 0) return {178, 176, 172};  // the walls, far away
+  const Eigen::Vector3d p = ray_world.at(sight.t);
+  if (sight.part < kWalls) return floor_.at(p.head<2>()) * tint(light_.at(p.head<2>()));
+  if (sight.part < kTags) return wallPaint(sight.part) * tint(openLight(p, sight.normal));
+  if (sight.part < kPosts) {
+    const bool white = (sight.part - kTags) % 2 == 1;
+    const Light light =
+        sight.normal.z() > 0.99 ? light_.at(p.head<2>()) : openLight(p, sight.normal);
+    return albedo(white ? TagFace::Ink::white : TagFace::Ink::black) * tint(light);
+  }
+  if (sight.part < kThings) return postColour(p, sight);
+  const auto& thing = things_[static_cast<std::size_t>(sight.part - kThings) / 8];
+  return thing.albedo * tint(openLight(p, sight.normal));
 }
 
 bool Room::isSolid(int part) {
@@ -149,17 +165,14 @@ double Room::distanceToSolids(const Ray& ray_world) const {
   return t;
 }
 
-void Room::traceFloor(const Ray& ray, Sample& nearest) const {
+void Room::traceFloor(const Ray& ray, Sight& nearest) {
   if (!(ray.origin.z() > 0 && ray.direction.z() < 0)) return;
   const double t = -ray.origin.z() / ray.direction.z();
-  const Eigen::Vector2d p = ray.at(t).head<2>();
-  const Floor::Sample floor = floor_.at(p);
-  nearest = {
-      .colour = floor.albedo * tint(light_.at(p)), .part = floor.tape ? kTape : kFloor, .t = t};
+  nearest = {.part = Floor::isTape(ray.at(t).head<2>()) ? kTape : kFloor, .t = t};
 }
 
 /// Seen from inside: the first wall or the ceiling on the ray's way out.
-void Room::traceWalls(const Ray& ray, Sample& nearest) const {
+void Room::traceWalls(const Ray& ray, Sight& nearest) const {
   constexpr double kCeiling = 2.7, kSkirting = 0.08;  // m
   const Eigen::Vector3d upper(walls_.x(), walls_.y(), kCeiling);
   for (int axis = 0; axis < 3; ++axis) {
@@ -168,64 +181,62 @@ void Room::traceWalls(const Ray& ray, Sample& nearest) const {
     const double side = slope > 0 ? 1 : -1;
     const double t = (side * upper[axis] - ray.origin[axis]) / slope;
     if (!(t > 0 && t < nearest.t)) continue;
-    const Eigen::Vector3d p = ray.at(t), normal = -side * Eigen::Vector3d::Unit(axis);
-    const bool skirting = axis < 2 && p.z() < kSkirting;
-    const Eigen::Array3f paint =
-        skirting ? Eigen::Array3f(96, 104, 112) : Eigen::Array3f(176, 186, 190);
-    nearest = {.colour = paint * tint(openLight(p, normal)),
-               .part = kWalls + 4 * axis + (side > 0 ? 2 : 0) + (skirting ? 1 : 0),
-               .t = t};
+    const bool skirting = axis < 2 && ray.at(t).z() < kSkirting;
+    nearest = {.part = kWalls + 4 * axis + (side > 0 ? 2 : 0) + (skirting ? 1 : 0),
+               .t = t,
+               .normal = -side * Eigen::Vector3d::Unit(axis)};
   }
 }
 
-void Room::traceTags(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const {
+Eigen::Array3f Room::wallPaint(int part) {
+  const bool skirting = (part - kWalls) % 2 == 1;
+  return skirting ? Eigen::Array3f(96, 104, 112) : Eigen::Array3f(176, 186, 190);
+}
+
+void Room::traceTags(const Ray& ray, const std::vector<std::size_t>& of, Sight& nearest) const {
   for (const std::size_t i : of) {
     const TagFace::TagHit hit = tags_[i].face.intersect(tags_[i].T_tag_world * ray);
     // Paper lies on the floor without thickness: on a tie it is the paper that is seen.
     if (!hit || hit.t > nearest.t + 1e-6) continue;
-    const Eigen::Vector3d p = ray.at(hit.t);
-    const Eigen::Vector3d normal = tags_[i].T_tag_world.linear().row(2).transpose();
-    const Light light = normal.z() > 0.99 ? light_.at(p.head<2>()) : openLight(p, normal);
-    nearest = {.colour = albedo(hit.ink) * tint(light),
-               .part = kTags + 2 * static_cast<int>(i) + (hit.ink == TagFace::Ink::white ? 1 : 0),
-               .t = hit.t};
+    nearest = {.part = kTags + 2 * static_cast<int>(i) + (hit.ink == TagFace::Ink::white ? 1 : 0),
+               .t = hit.t,
+               .normal = tags_[i].T_tag_world.linear().row(2).transpose()};
   }
 }
 
-void Room::tracePosts(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const {
+void Room::tracePosts(const Ray& ray, const std::vector<std::size_t>& of, Sight& nearest) const {
   for (const std::size_t i : of) {
-    const Hit foot = intersect(ray, posts_[i].foot);
     const int first = kPosts + 8 * static_cast<int>(i);
-    if (foot.t < nearest.t) {
-      const Light light = openLight(ray.at(foot.t), foot.normal);
-      nearest = {.colour = Eigen::Array3f(52, 50, 48) * tint(light), .part = first, .t = foot.t};
-    }
+    const Hit foot = intersect(ray, posts_[i].foot);
+    if (foot.t < nearest.t) nearest = {.part = first + kFoot, .t = foot.t, .normal = foot.normal};
     const Hit shaft = intersect(ray, posts_[i].shaft);
     if (shaft.t >= nearest.t) continue;
-    const Eigen::Vector3d p = ray.at(shaft.t);
-    const double from_top = 2 * posts_[i].shaft.half_length - p.z();
-    const bool cap = shaft.normal.z() > 0.5;
-    const bool band = !cap && from_top > 0.03 && from_top < 0.07;
-    const Eigen::Array3f paint = band  ? Eigen::Array3f(40, 96, 226)
-                                 : cap ? Eigen::Array3f(225, 226, 224)
-                                       : Eigen::Array3f(206, 208, 206);
-    // Less light reaches the foot of a post than its top.
-    const auto low = static_cast<float>(1 - 0.35 * std::exp(-p.z() / 0.04));
-    nearest = {.colour = paint * tint(openLight(p, shaft.normal)) * low,
-               .part = first + (cap    ? 3
-                                : band ? 2
-                                       : 1),
-               .t = shaft.t};
+    const double from_top = 2 * posts_[i].shaft.half_length - ray.at(shaft.t).z();
+    const bool cap = shaft.normal.z() > 0.5, band = !cap && from_top > 0.03 && from_top < 0.07;
+    const int kind = cap ? kCap : band ? kBand : kShaft;
+    nearest = {.part = first + kind, .t = shaft.t, .normal = shaft.normal};
   }
 }
 
-void Room::traceThings(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const {
+Eigen::Array3f Room::postColour(const Eigen::Vector3d& p_world, const Sight& sight) {
+  const Eigen::Array3f light = tint(openLight(p_world, sight.normal));
+  const int kind = (sight.part - kPosts) % 8;
+  if (kind == kFoot) return Eigen::Array3f(52, 50, 48) * light;
+  // Less light reaches the foot of a post than its top.
+  const auto low = static_cast<float>(1 - 0.35 * std::exp(-p_world.z() / 0.04));
+  const Eigen::Array3f paint = kind == kBand  ? Eigen::Array3f(40, 96, 226)
+                               : kind == kCap ? Eigen::Array3f(225, 226, 224)
+                                              : Eigen::Array3f(206, 208, 206);
+  return paint * light * low;
+}
+
+void Room::traceThings(const Ray& ray, const std::vector<std::size_t>& of, Sight& nearest) const {
   for (const std::size_t i : of) {
     const Hit hit = intersect(ray, things_[i].shape);
     if (hit.t >= nearest.t) continue;
-    nearest = {.colour = things_[i].albedo * tint(openLight(ray.at(hit.t), hit.normal)),
-               .part = kThings + 8 * static_cast<int>(i) + (hit.normal.z() > 0.5 ? 0 : 1),
-               .t = hit.t};
+    nearest = {.part = kThings + 8 * static_cast<int>(i) + (hit.normal.z() > 0.5 ? 0 : 1),
+               .t = hit.t,
+               .normal = hit.normal};
   }
 }
 

@@ -11,11 +11,11 @@
 
 namespace slamscope::tracking::lab {
 
-/// What a ray sees.
-struct Sample {
-  Eigen::Array3f colour = Eigen::Array3f::Zero();  ///< blue, green, red, of 255
+/// What a ray meets first.
+struct Sight {
   int part = -1;  ///< equal numbers: no edge between; −1: nothing
   double t = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< outward, unit
 };
 
 /// Printer's ink and paper.
@@ -33,7 +33,9 @@ class Room {
   };
   /// For rays turned by up to `spread` (rad) from this one.
   [[nodiscard]] Candidates candidates(const Ray& ray_world, double spread) const;
-  [[nodiscard]] Sample trace(const Ray& ray_world, const Candidates& candidates) const;
+  [[nodiscard]] Sight trace(const Ray& ray_world, const Candidates& candidates) const;
+  /// How bright that is: blue, green, red, of 255.
+  [[nodiscard]] Eigen::Array3f colour(const Ray& ray_world, const Sight& sight) const;
   /// A part that stands on the floor.
   [[nodiscard]] static bool isSolid(int part);
   /// Distance along the ray to the first solid that stands on the floor (not the floor itself).
@@ -59,11 +61,14 @@ class Room {
   void addBoards(const LabOptions& options);
   [[nodiscard]] static LightMap makeLight(const LabOptions& options);
 
-  void traceFloor(const Ray& ray, Sample& nearest) const;
-  void traceWalls(const Ray& ray, Sample& nearest) const;
-  void traceTags(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
-  void tracePosts(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
-  void traceThings(const Ray& ray, const std::vector<std::size_t>& of, Sample& nearest) const;
+  static void traceFloor(const Ray& ray, Sight& nearest);
+  void traceWalls(const Ray& ray, Sight& nearest) const;
+  void traceTags(const Ray& ray, const std::vector<std::size_t>& of, Sight& nearest) const;
+  void tracePosts(const Ray& ray, const std::vector<std::size_t>& of, Sight& nearest) const;
+  void traceThings(const Ray& ray, const std::vector<std::size_t>& of, Sight& nearest) const;
+  [[nodiscard]] static Eigen::Array3f wallPaint(int part);
+  [[nodiscard]] static Eigen::Array3f postColour(const Eigen::Vector3d& p_world,
+                                                 const Sight& sight);
 
   Floor floor_;
   Eigen::Vector2d walls_;

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tracking/lab_lattice.hpp"
+#include "tracking/lab_pixel.hpp"
 
 namespace slamscope::tracking::lab {
 namespace {
@@ -111,27 +112,40 @@ Eigen::Array3f WalkPainter::robotsShadow(const Scene& scene, const Eigen::Vector
   return tint(open * passed(p, scene.blocker)) / tint(open);
 }
 
-Sample WalkPainter::trace(const Scene& scene, const Eigen::Vector3d& direction, std::size_t pose,
-                          const Room::Candidates& candidates) const {
+Ray WalkPainter::rayOf(const Scene& scene, const Eigen::Vector3d& direction, std::size_t pose) {
   const Eigen::Isometry3d& T = scene.motion.T_world_camera[pose];
-  const Ray ray{T.translation(), T.linear() * direction};
-  Sample sample = room_.trace(ray, candidates);
-  const Eigen::Vector3d p = ray.at(std::min(sample.t, 1e3));
-  if (std::abs(p.z()) < 1e-6) sample.colour *= robotsShadow(scene, p.head<2>());
+  return {T.translation(), T.linear() * direction};
+}
+
+Sight WalkPainter::trace(const Scene& scene, const Ray& ray, std::size_t pose,
+                         const Room::Candidates& candidates) const {
+  Sight nearest = room_.trace(ray, candidates);
   // The ray's parameter is the same in both frames.
-  const Sample robot =
-      robot_.trace(scene.T_robot_world[pose] * ray, scene.motion.robot.T_world_robot[pose]);
-  if (robot.part >= 0 && robot.t < sample.t) {
-    sample = robot;
-    sample.part += kRobotParts;
+  const Sight robot = robot_.trace(scene.T_robot_world[pose] * ray);
+  if (robot.part >= 0 && robot.t < nearest.t) {
+    nearest = robot;
+    nearest.part += kRobotParts;
   }
-  if (!scene.bystander) return sample;
+  if (!scene.bystander) return nearest;
   const Hit hit = intersect(ray, *scene.bystander);
-  if (hit.t >= sample.t) return sample;
-  const Eigen::Array3f cloth(92, 70, 62);
-  return {.colour = cloth * tint(openLight(ray.at(hit.t), hit.normal)),
-          .part = kBystanderPart + (hit.normal.z() > 0.5 ? 1 : 0),
-          .t = hit.t};
+  if (hit.t >= nearest.t) return nearest;
+  return {
+      .part = kBystanderPart + (hit.normal.z() > 0.5 ? 1 : 0), .t = hit.t, .normal = hit.normal};
+}
+
+Eigen::Array3f WalkPainter::colour(const Scene& scene, const Ray& ray, std::size_t pose,
+                                   const Sight& sight) const {
+  const Eigen::Vector3d p = ray.at(std::min(sight.t, 1e3));
+  if (sight.part >= kBystanderPart)
+    return Eigen::Array3f(92, 70, 62) * tint(openLight(p, sight.normal));
+  if (sight.part >= kRobotParts) {
+    Sight robot = sight;
+    robot.part -= kRobotParts;
+    return robot_.colour(scene.T_robot_world[pose] * ray, robot,
+                         scene.motion.robot.T_world_robot[pose]);
+  }
+  const Eigen::Array3f room = room_.colour(ray, sight);
+  return std::abs(p.z()) < 1e-6 ? room * robotsShadow(scene, p.head<2>()) : room;
 }
 
 int WalkPainter::blurPixels(const WalkMotion& motion) const {
@@ -145,12 +159,19 @@ Canvas WalkPainter::paint(const WalkMotion& motion) const {
   const Scene scene(motion);
   const int width = lens_.width(), height = lens_.height();
   const auto candidates = blocks(motion);
-  std::vector<Sample> corners(static_cast<std::size_t>(width + 1) * (height + 1));
+  struct Corner {
+    int part;
+    Eigen::Array3f colour;
+  };
+  std::vector<Corner> corners(static_cast<std::size_t>(width + 1) * (height + 1));
   forEachRow(height + 1, [&](int row) {
     const std::size_t pose = motion.robot.at(static_cast<double>(row) / height, 0.5);
-    for (int column = 0; column <= width; ++column)
-      corners[static_cast<std::size_t>(row) * (width + 1) + column] =
-          trace(scene, lens_.corner(column, row), pose, seen(candidates, column, row));
+    for (int column = 0; column <= width; ++column) {
+      const Ray ray = rayOf(scene, lens_.corner(column, row), pose);
+      const Sight sight = trace(scene, ray, pose, seen(candidates, column, row));
+      corners[static_cast<std::size_t>(row) * (width + 1) + column] = {
+          .part = sight.part, .colour = colour(scene, ray, pose, sight)};
+    }
   });
   // Pixels that an edge crosses, and those that it may reach during the exposure.
   cv::Mat edges(height, width, CV_8U, cv::Scalar(0));
@@ -159,7 +180,7 @@ Canvas WalkPainter::paint(const WalkMotion& motion) const {
   };
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
-      const Sample *a = at(column, row), *b = at(column, row + 1);
+      const Corner *a = at(column, row), *b = at(column, row + 1);
       const bool even = a[0].part == a[1].part && b[0].part == b[1].part && a[0].part == b[0].part;
       edges.at<std::uint8_t>(row, column) = even ? 0 : 1;
     }
@@ -169,18 +190,21 @@ Canvas WalkPainter::paint(const WalkMotion& motion) const {
   canvas.pixels.resize(static_cast<std::size_t>(width) * height);
   forEachRow(height, [&](int row) {
     const double place = (row + 0.5) / height;
+    PixelMean pixel;
     for (int column = 0; column < width; ++column) {
-      const Sample *a = at(column, row), *b = at(column, row + 1);
-      Eigen::Array3f sum = 0.25F * (a[0].colour + a[1].colour + b[0].colour + b[1].colour);
-      if (edges.at<std::uint8_t>(row, column) != 0) {
-        sum.setZero();
-        for (const LatticePoint& p : kQuick)
-          sum += trace(scene, lens_.direction(column, row, p.x, p.y),
-                       motion.robot.at(place, p.moment), seen(candidates, column, row))
-                     .colour;
-        sum /= static_cast<float>(kQuick.size());
+      const Corner *a = at(column, row), *b = at(column, row + 1);
+      if (edges.at<std::uint8_t>(row, column) == 0) {
+        canvas.at(column, row) = 0.25F * (a[0].colour + a[1].colour + b[0].colour + b[1].colour);
+        continue;
       }
-      canvas.at(column, row) = sum;
+      pixel.clear();
+      for (const LatticePoint& p : kQuick) {
+        const std::size_t pose = motion.robot.at(place, p.moment);
+        const Ray ray = rayOf(scene, lens_.direction(column, row, p.x, p.y), pose);
+        const Sight sight = trace(scene, ray, pose, seen(candidates, column, row));
+        pixel.add(sight.part, [&] { return colour(scene, ray, pose, sight); });
+      }
+      canvas.at(column, row) = pixel.mean();
     }
   });
   return canvas;

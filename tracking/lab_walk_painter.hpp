@@ -35,8 +35,12 @@ class WalkPainter {
   [[nodiscard]] std::vector<Room::Candidates> blocks(const WalkMotion& motion) const;
   [[nodiscard]] const Room::Candidates& seen(const std::vector<Room::Candidates>& blocks,
                                              int column, int row) const;
-  [[nodiscard]] Sample trace(const Scene& scene, const Eigen::Vector3d& direction, std::size_t pose,
-                             const Room::Candidates& candidates) const;
+  [[nodiscard]] static Ray rayOf(const Scene& scene, const Eigen::Vector3d& direction,
+                                 std::size_t pose);
+  [[nodiscard]] Sight trace(const Scene& scene, const Ray& ray, std::size_t pose,
+                            const Room::Candidates& candidates) const;
+  [[nodiscard]] Eigen::Array3f colour(const Scene& scene, const Ray& ray, std::size_t pose,
+                                      const Sight& sight) const;
   [[nodiscard]] Eigen::Array3f robotsShadow(const Scene& scene, const Eigen::Vector2d& p) const;
   [[nodiscard]] int blurPixels(const WalkMotion& motion) const;
 

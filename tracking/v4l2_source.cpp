@@ -12,12 +12,12 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "tracking/codecs.hpp"
 #include "tracking/frame_source.hpp"
 
 namespace slamscope::tracking {
@@ -146,7 +146,7 @@ class V4l2Source final : public FrameSource {
     device_.require(VIDIOC_QBUF, buffer, "can't queue a buffer");
   }
   [[nodiscard]] std::optional<Frame> decode(const v4l2_buffer& buffer) const;
-  [[nodiscard]] cv::Mat toBgr(std::span<std::uint8_t> bytes) const;
+  [[nodiscard]] std::optional<BgrPicture> toBgr(std::span<std::uint8_t> bytes) const;
   [[nodiscard]] std::chrono::nanoseconds stamp(const v4l2_buffer& buffer) const;
 
   Device device_;
@@ -256,18 +256,18 @@ v4l2_buffer V4l2Source::newest() const {
   return *newest;
 }
 
-cv::Mat V4l2Source::toBgr(std::span<std::uint8_t> bytes) const {
+std::optional<BgrPicture> V4l2Source::toBgr(std::span<std::uint8_t> bytes) const {
+  if (format_.pixelformat == V4L2_PIX_FMT_MJPEG) return codecs().decode(bytes);
+  if (bytes.size() < static_cast<std::size_t>(format_.bytesperline) * format_.height)
+    return std::nullopt;
   const auto width = static_cast<int>(format_.width), height = static_cast<int>(format_.height);
-  cv::Mat bgr;
-  if (format_.pixelformat == V4L2_PIX_FMT_MJPEG) {
-    const cv::Mat packed(1, static_cast<int>(bytes.size()), CV_8U, bytes.data());
-    return cv::imdecode(packed, cv::IMREAD_COLOR);
-  }
-  if (bytes.size() < static_cast<std::size_t>(format_.bytesperline) * format_.height) return bgr;
+  BgrPicture picture{.width = width, .height = height, .bgr = {}};
+  picture.bgr.resize(std::size_t{3} * format_.width * format_.height);
+  cv::Mat bgr(height, width, CV_8UC3, picture.bgr.data());
   const bool grey = format_.pixelformat == V4L2_PIX_FMT_GREY;
   const cv::Mat raw(height, width, grey ? CV_8UC1 : CV_8UC2, bytes.data(), format_.bytesperline);
   cv::cvtColor(raw, bgr, grey ? cv::COLOR_GRAY2BGR : cv::COLOR_YUV2BGR_YUYV);
-  return bgr;
+  return picture;
 }
 
 std::chrono::nanoseconds V4l2Source::stamp(const v4l2_buffer& buffer) const {
@@ -281,14 +281,16 @@ std::chrono::nanoseconds V4l2Source::stamp(const v4l2_buffer& buffer) const {
 std::optional<Frame> V4l2Source::decode(const v4l2_buffer& buffer) const {
   if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) return std::nullopt;  // as the driver knows
   const std::span<std::uint8_t> bytes = mappings_.at(buffer.index).bytes();
-  const cv::Mat bgr = toBgr(bytes.first(std::min<std::size_t>(buffer.bytesused, bytes.size())));
-  if (bgr.cols != options_.width || bgr.rows != options_.height) return std::nullopt;
+  std::optional<BgrPicture> picture =
+      toBgr(bytes.first(std::min<std::size_t>(buffer.bytesused, bytes.size())));
+  if (!picture || picture->width != options_.width || picture->height != options_.height)
+    return std::nullopt;
   return Frame{.time = stamp(buffer),
                .sequence = buffer.sequence,
                .source = device_.name(),
-               .width = bgr.cols,
-               .height = bgr.rows,
-               .bgr = {bgr.data, bgr.data + bgr.total() * bgr.elemSize()}};
+               .width = picture->width,
+               .height = picture->height,
+               .bgr = std::move(picture->bgr)};
 }
 
 }  // namespace

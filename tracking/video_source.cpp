@@ -2,9 +2,10 @@
 #include "tracking/video_source.hpp"
 
 #include <cmath>
-#include <opencv2/videoio.hpp>
 #include <stdexcept>
+#include <utility>
 
+#include "tracking/codecs.hpp"
 #include "tracking/frame_source.hpp"
 #include "tracking/stamps.hpp"
 
@@ -14,33 +15,31 @@ namespace {
 class VideoSource final : public FrameSource {
  public:
   VideoSource(const std::filesystem::path& file, double fps)
-      : name_(file.string()), fps_(fps), video_(name_, cv::CAP_FFMPEG) {
-    if (!video_.isOpened()) throw std::runtime_error(name_ + ": can't be read as a video");
+      : name_(file.string()), fps_(fps), video_(codecs().openVideo(file)) {
+    if (!video_) throw std::runtime_error(name_ + ": can't be read as a video");
   }
 
   std::optional<Frame> next() override {
-    cv::Mat image;
-    if (!video_.read(image) || image.empty()) {
+    std::optional<BgrPicture> picture = video_->next();
+    if (!picture) {
       if (next_ == 0) throw std::runtime_error(name_ + ": no frame in it");
       return std::nullopt;
     }
-    if (next_ > 0 && (image.cols != width_ || image.rows != height_))
+    if (next_ > 0 && (picture->width != width_ || picture->height != height_))
       throw std::runtime_error(name_ + ", frame " + std::to_string(next_) +
                                ": the picture's size changes");
-    width_ = image.cols;
-    height_ = image.rows;
-    const cv::Mat packed = image.isContinuous() ? image : image.clone();
+    width_ = picture->width;
+    height_ = picture->height;
     return Frame{.time = stamp(),
                  .sequence = next_++,
                  .source = name_,
                  .width = width_,
                  .height = height_,
-                 .bgr = {packed.data, packed.data + packed.total() * packed.elemSize()}};
+                 .bgr = std::move(picture->bgr)};
   }
   bool stamped() const override { return fps_ <= 0; }
   std::optional<std::uint64_t> count() const override {
-    const double count =
-        video_.get(cv::CAP_PROP_FRAME_COUNT);  // a guess from the duration in some formats
+    const double count = video_->count();
     if (!(count > 0)) return std::nullopt;
     return static_cast<std::uint64_t>(count);
   }
@@ -50,16 +49,16 @@ class VideoSource final : public FrameSource {
   /// there.
   std::chrono::nanoseconds stamp() {
     if (fps_ > 0) return timeAtRate(next_, fps_);
-    const double own_rate = video_.get(cv::CAP_PROP_FPS);
+    const double own_rate = video_->framesPerSecond();
     const std::chrono::nanoseconds step = timeAtRate(1, own_rate > 0 ? own_rate : 30);
-    const std::chrono::nanoseconds clock(std::llround(video_.get(cv::CAP_PROP_POS_MSEC) * 1e6));
+    const std::chrono::nanoseconds clock(std::llround(video_->positionMs() * 1e6));
     last_ = next_ > 0 && clock <= last_ ? last_ + step : clock;
     return last_;
   }
 
   std::string name_;
   double fps_;
-  cv::VideoCapture video_;
+  std::unique_ptr<VideoReader> video_;
   std::uint64_t next_ = 0;
   std::chrono::nanoseconds last_{};
   int width_ = 0, height_ = 0;

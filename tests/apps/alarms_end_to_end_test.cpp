@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/lib/view/monitor.hpp"
+#include "tests/read_picture.hpp"
 
 // The paper's experiment as mode alarms shows it: report and pixels.
 namespace slamscope::apps {
@@ -37,7 +37,7 @@ Film alarmFilm(const std::string& fault) {
   while (monitor.next()) monitor.draw();
   monitor.finish(Viewer::Ending::input_ended);
   Film result{.frames = nlohmann::json::parse(std::ifstream(options.report))["frames"],
-              .last = cv::imread(options.picture.string())};
+              .last = test::readPicture(options.picture)};
   fs::remove_all(folder);
   return result;
 }

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/lib/view/monitor.hpp"
 #include "tests/apps/cone_tip.hpp"
+#include "tests/read_picture.hpp"
 
 // From the lab's camera to the pixels of the written pictures.
 namespace slamscope::apps {
@@ -41,7 +41,7 @@ Run film(double opacity) {
   EXPECT_TRUE(monitor.gpu()->validationMessages().empty());
   Run run{.report = nlohmann::json::parse(std::ifstream(options.report)),
           .truth = nlohmann::json::parse(std::ifstream(options.lab_truth)),
-          .last_picture = cv::imread(options.picture.string())};
+          .last_picture = test::readPicture(options.picture)};
   fs::remove_all(folder);
   return run;
 }

@@ -35,11 +35,11 @@ inline HeadConsistency headConsistency(int runs, const std::function<void()>& do
     const HeadMotion motion = tracker.at(time).value().motion;
     const auto e = perturbation(motion.T_world_head, truth);
     const Eigen::Matrix<double, 6, 6> S = motion.covariance.topLeftCorner<6, 6>();
-    mean.pose += e.dot(S.llt().solve(e)) / runs;
-    mean.boastful_pose += e.dot((S / 1.5).llt().solve(e)) / runs;
+    mean.pose += nees(e, S) / runs;
+    mean.boastful_pose += nees(e, S / 1.5) / runs;
     const Eigen::Vector2d d = projectRolling(eye, motion, p).value() - true_px;
     const Eigen::Matrix2d S_px = overlayCovariance(eye, motion, {}, p).value();
-    mean.overlay += d.dot(S_px.llt().solve(d)) / runs;
+    mean.overlay += nees(d, S_px) / runs;
     if (done) done();
   }
   return mean;

@@ -143,7 +143,7 @@ TEST(HeadTracker, PredictsToAGivenTimeWithoutAClock) {
     ASSERT_TRUE(pose) << ms;
     const auto e = testing::perturbation(pose->motion.T_world_head, room.head(time));
     const Matrix18d& P = pose->motion.covariance;
-    EXPECT_LT(e.dot((P.topLeftCorner<6, 6>()).llt().solve(e)), 22.5) << ms;  // 99.9 %
+    EXPECT_LT(testing::nees(e, P.topLeftCorner<6, 6>()), 22.5) << ms;  // 99.9 %
     EXPECT_GT(P(0, 0), sigma_before) << "ever less certain";
     sigma_before = P(0, 0);
     EXPECT_LT(e.head<3>().norm(), 0.001 + 0.15 * ms * 1e-3) << ms;

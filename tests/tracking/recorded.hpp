@@ -7,11 +7,11 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/read_picture.hpp"
 #include "tracking/tag_detector.hpp"
 #include "tracking/tag_layout.hpp"
 
@@ -35,8 +35,7 @@ inline std::optional<fs::path> recorded(const std::string& folder) {
   }
 
 inline std::vector<TagDetection> detect(TagDetector& detector, const fs::path& file) {
-  const cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (picture.empty()) throw std::runtime_error(file.string() + ": no picture");
+  const cv::Mat picture = test::readPicture(file);
   return detector.detect({picture.data, picture.cols, picture.rows, 3});
 }
 

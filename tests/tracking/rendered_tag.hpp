@@ -151,7 +151,7 @@ inline Eigen::Matrix3d squareToPixels(const std::array<Eigen::Vector2d, 4>& px) 
     A.row(2 * i + 1) << 0, 0, 0, X[i], Y[i], 1, -v * X[i], -v * Y[i];
     b.segment<2>(2 * i) = px[i];
   }
-  const Eigen::Matrix<double, 8, 1> h = A.fullPivLu().solve(b);
+  const Eigen::VectorXd h = Eigen::MatrixXd(A).partialPivLu().solve(Eigen::VectorXd(b));
   Eigen::Matrix3d H;
   H << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1;
   return H;

@@ -64,6 +64,12 @@ inline TagLayout floorTags(int count) {
   return layout;
 }
 
+/// eᵀ P⁻¹ e, the normalised estimation error squared. (Of any size in one piece of code: Eigen's
+/// solvers of fixed size each cost seconds to compile.)
+inline double nees(const Eigen::VectorXd& e, const Eigen::MatrixXd& P) {
+  return e.dot(P.llt().solve(e));
+}
+
 /// Coordinates of the right perturbation (translation first) that takes `from` to `to`.
 inline Eigen::Matrix<double, 6, 1> perturbation(const Eigen::Isometry3d& from,
                                                 const Eigen::Isometry3d& to) {

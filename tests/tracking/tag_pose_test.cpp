@@ -68,7 +68,7 @@ double meanNees(double factor, int runs) {
     const auto pose = estimateTagPose(camera, layout, seen);
     if (!pose) return 1e9;
     const auto d = perturbation(pose->T_camera_world, askew());
-    sum += d.dot(pose->covariance.ldlt().solve(d));
+    sum += testing::nees(d, pose->covariance);
   }
   return sum / runs;
 }

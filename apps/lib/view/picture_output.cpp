@@ -3,23 +3,26 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <regex>
 #include <stdexcept>
+#include <utility>
+
+#include "tracking/codecs.hpp"
 
 namespace slamscope::apps {
 namespace {
 
 namespace fs = std::filesystem;
 
-cv::Mat toBgr(const engine::Image& picture) {
+tracking::BgrPicture toBgr(const engine::Image& picture) {
+  tracking::BgrPicture result{.width = picture.width, .height = picture.height, .bgr = {}};
   const cv::Mat rgba(picture.height, picture.width, CV_8UC4,
                      const_cast<std::uint8_t*>(picture.rgba.data()));
-  cv::Mat bgr;
+  result.bgr.resize(rgba.total() * 3);
+  cv::Mat bgr(picture.height, picture.width, CV_8UC3, result.bgr.data());
   cv::cvtColor(rgba, bgr, cv::COLOR_RGBA2BGR);
-  return bgr;
+  return result;
 }
 
 void requireFolder(const fs::path& target) {
@@ -66,45 +69,42 @@ class Video : public PictureOutput {
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
   ~Video() override {
-    writer_.release();
+    writer_.reset();
     std::error_code ignored;
     fs::remove(partial_, ignored);
   }
 
   void write(const engine::Image& picture) override {
-    if (!writer_.isOpened()) open(picture);
-    if (picture.width != size_.width || picture.height != size_.height) {
+    if (!writer_) open(picture);
+    if (picture.width != width_ || picture.height != height_) {
       throw std::runtime_error(target_.string() + ": a video's pictures have one size");
     }
-    writer_.write(toBgr(picture));
+    writer_->write(toBgr(picture));
   }
 
   void finish() override {
-    if (!writer_.isOpened()) return;
-    writer_.release();
+    if (!writer_) return;
+    writer_.reset();
     fs::rename(partial_, target_);
   }
 
  private:
   void open(const engine::Image& picture) {
-    size_ = {picture.width, picture.height};
-    if (size_.width % 2 != 0 || size_.height % 2 != 0) {
+    width_ = picture.width;
+    height_ = picture.height;
+    if (width_ % 2 != 0 || height_ % 2 != 0) {
       throw std::runtime_error(target_.string() + ": a video needs an even width and height, not " +
-                               std::to_string(size_.width) + " x " + std::to_string(size_.height) +
+                               std::to_string(width_) + " x " + std::to_string(height_) +
                                "; choose another --size");
     }
-    // H.264 plays everywhere; MPEG-4 part 2 where this build of FFmpeg has no encoder for it.
-    for (const int code : {cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
-                           cv::VideoWriter::fourcc('m', 'p', '4', 'v')}) {
-      if (writer_.open(partial_.string(), cv::CAP_FFMPEG, code, frames_per_second_, size_)) return;
-    }
-    throw std::runtime_error(target_.string() + ": can't be written as a video");
+    writer_ = tracking::codecs().createVideo(partial_, frames_per_second_, width_, height_);
+    if (!writer_) throw std::runtime_error(target_.string() + ": can't be written as a video");
   }
 
   fs::path target_, partial_;
   double frames_per_second_;
-  cv::Size size_;
-  cv::VideoWriter writer_;
+  int width_ = 0, height_ = 0;
+  std::unique_ptr<tracking::VideoWriter> writer_;
 };
 
 }  // namespace
@@ -129,15 +129,8 @@ void writePicture(const fs::path& file, const engine::Image& picture) {
     throw std::runtime_error(file.string() + ": a picture is NAME.png or NAME.jpg");
   }
   const fs::path partial = partialFor(file);
-  // The lowest compression: a frame's time matters more than a third of its bytes.
-  bool written = false;
-  try {
-    written = cv::imwrite(partial.string(), toBgr(picture),
-                          {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, 88});
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (!written) throw std::runtime_error(file.string() + ": can't be written");
+  if (!tracking::codecs().write(partial, toBgr(picture)))
+    throw std::runtime_error(file.string() + ": can't be written");
   fs::rename(partial, file);
 }
 
