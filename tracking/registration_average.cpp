@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 
+#include "tracking/median.hpp"
 #include "tracking/registration_error.hpp"
 
 namespace slamscope::tracking {
@@ -20,12 +21,6 @@ constexpr double kWrongScale = 0.04;  // of the robot's tag; beyond it what was 
 constexpr double kMoved_m = 0.02, kMoved_rad = 0.05;
 
 using Sightings = std::map<int, std::vector<TagDetection>>;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Corners of all sightings of one tag. A bias that is the same in each of n frames counts n times
 /// as much as noise does, so that n such corners together know no more than the bias lets them.
@@ -117,8 +112,8 @@ TagDetection typicalDetection(const std::vector<TagDetection>& seen) {
       v.push_back(tag.corners_px[i].y());
       sigma.push_back(tag.sigma_px[i]);
     }
-    result.corners_px[i] = {median(u), median(v)};
-    result.sigma_px[i] = median(sigma);
+    result.corners_px[i] = {medianOf(u), medianOf(v)};
+    result.sigma_px[i] = medianOf(sigma);
   }
   return result;
 }

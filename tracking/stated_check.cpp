@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "tracking/median.hpp"
 #include "tracking/tag_scene.hpp"
 
 namespace slamscope::tracking {
@@ -51,12 +52,6 @@ Explanation explain(const Eigen::Matrix4d& H, const Eigen::Vector4d& g, double c
   const double noise = std::max(1.0, (chi2 - result.explained) / std::max(1.0, dof));
   result.sigmas = std::sqrt(std::max(0.0, result.explained / noise));
   return result;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;

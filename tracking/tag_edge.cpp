@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "tracking/median.hpp"
+
 namespace slamscope::tracking {
 namespace {
 
@@ -119,12 +121,6 @@ Vector7d guess(const std::vector<Sample>& samples, const EdgeWindow& window) {
   Vector7d x;
   x << 0, 0, behind / std::max(n_behind, 1), 0, ahead / std::max(n_ahead, 1), 0, 0.8;
   return x;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// One Gauss–Newton step of the robust fit: J'WJ and J'Wr, and the noise seen (median based).
