@@ -10,6 +10,7 @@
 #include "tests/experiments/healthy_table.hpp"
 #ifdef SLAMSCOPE_VIEW
 #include "tests/experiments/tracking_table.hpp"
+#include "tests/experiments/written_walk.hpp"
 #endif
 
 int main(int argc, char** argv) {
@@ -42,6 +43,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   track->add_flag("--pictures,!--no-pictures", tracking.pictures,
                   "the walks through the lab at all");
+  slamscope::tracking::experiments::WrittenWalkOptions written;
+  CLI::App* walk =
+      app.add_subcommand("walk", "a walk through the lab as if recorded, for slamscope hmd");
+  walk->add_option("folder", written.folder, "where to write it")->required();
+  walk->add_option("--pairs", written.pairs, "of pictures")->capture_default_str();
+  walk->add_option("--fps", written.fps, "pairs a second")->capture_default_str();
 #endif
   CLI::App* association =
       app.add_subcommand("association", "nearest and joint in an ambiguous world");
@@ -57,6 +64,10 @@ int main(int argc, char** argv) {
   consistency->add_option("--threads", models.threads, "0: one per core")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 #ifdef SLAMSCOPE_VIEW
+  if (*walk) {
+    slamscope::tracking::experiments::writeWalk(written);
+    return 0;
+  }
   if (*track) return slamscope::tracking::experiments::printTrackingTable(tracking) == 0 ? 0 : 1;
 #endif
   if (*consistency) return experiments::printConsistencyTable(models) == 0 ? 0 : 1;
