@@ -11,6 +11,8 @@ namespace {
 
 /// Beyond this share outside of the span a filter is not just linearised in another way.
 constexpr double kNearly = 0.05;
+/// Beyond this share of a feature's distance nobody linearises, unless the point is one's exactly.
+constexpr double kFar = 0.5, kExactly = 1e-6;
 /// Rows that a span must leave over to prove anything.
 constexpr int kSpareRows = 1;
 
@@ -19,6 +21,7 @@ struct WrongReading {
   std::string_view allow;  ///< empty: a fault
   std::optional<Eigen::Vector2d> delta;
   double tolerance = 1e-3;  ///< of |δ − lawful δ| or of |δ|
+  double misfit = 0.0;      ///< the largest so far, of the way from the lawful δ to the one used
 };
 
 std::optional<Eigen::Vector2d> at(const std::optional<Means>& means, FeatureId id) {
@@ -126,18 +129,30 @@ bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
     blameShift(t, i, *used, lawful, shown);
     std::vector<WrongReading> fitting = wrongReadings(t, points, i, lawful);
     std::erase_if(fitting, [&](const WrongReading& c) { return !explains(c, *used, lawful); });
+    for (WrongReading& c : fitting) c.misfit = (*used - *c.delta).norm() / (*used - lawful).norm();
     if (!common) {
       common = std::move(fitting);
       continue;
     }
-    std::erase_if(*common, [&](const WrongReading& c) {
-      return std::none_of(fitting.begin(), fitting.end(),
-                          [&](const WrongReading& other) { return other.pattern == c.pattern; });
+    std::erase_if(*common, [&](WrongReading& c) {
+      const auto again =
+          std::find_if(fitting.begin(), fitting.end(),
+                       [&](const WrongReading& other) { return other.pattern == c.pattern; });
+      if (again == fitting.end()) return true;
+      c.misfit = std::max(c.misfit, again->misfit);
+      return false;
     });
   }
-  const WrongReading* found = common && !common->empty() ? &common->front() : nullptr;
+  // Several may explain it by chance (where the last motion and the update happen to point the same
+  // way): the one that does so best.
+  const WrongReading* found = nullptr;
+  if (common && !common->empty())
+    found = &*std::min_element(
+        common->begin(), common->end(),
+        [](const WrongReading& a, const WrongReading& b) { return a.misfit < b.misfit; });
   if (found == nullptr && farthest < kNearly) return false;  // explained by whoever asks next
-  if (found != nullptr && !found->allow.empty() && farthest < 0.5) {
+  const bool near_enough = farthest < kFar || (found != nullptr && found->misfit < kExactly);
+  if (found != nullptr && !found->allow.empty() && near_enough) {
     anatomy.allow = found->allow;
     anatomy.support = Outcome::notCheckable(
         "linearised elsewhere than at the mean, as with --allow " + std::string(found->allow));
