@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/slamscope/run_viewer.hpp"
 
-#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "apps/lib/freed_memory.hpp"
 #include "apps/lib/progress.hpp"
 #include "apps/lib/view/viewer_window.hpp"
 
@@ -62,9 +62,7 @@ void reportValidation(const Viewer& viewer) {
 }  // namespace
 
 void runViewer(Viewer& viewer, const ViewerRun& run) {
-  // Every frame is fetched ahead by a thread of its own. Were each to find an arena of its own too,
-  // all of them would in the end hold what one frame needs.
-  mallopt(M_ARENA_MAX, 1);
+  shareOneArena();
   endOnInterrupt();
   for (const std::string& note : viewer.notes()) spdlog::info("{}", note);
   const Viewer::Ending ending =

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/lib/freed_memory.hpp"
 #include "engine/render/offscreen.hpp"
 #include "tests/bench/pair_map.hpp"
 #include "tests/bench/timing.hpp"
@@ -169,6 +170,7 @@ void printBlock(const Measurement& measurement, std::size_t eyes, bool changing)
 int main(int argc, char** argv) {
   using namespace slamscope;
   using namespace slamscope::engine;
+  apps::keepFreedMemory();
   const Measurement measurement(argc > 1 ? argv[1] : "");
   std::printf(
       "load before: %.1f\n\n| ms | n = 15 | 100 | 500 | 1000 |\n| --- | --- | --- | --- | --- |\n",
