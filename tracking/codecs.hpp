@@ -68,9 +68,9 @@ class Codecs {
                                                                  int width, int height) const = 0;
 };
 
-/// OpenCV's imgcodecs and videoio. They bring two hundred and forty shared libraries with them, 0.2
-/// s of a program's start, so they are in a library of their own (libslamscope_codecs.so, beside
-/// the program), which the first call opens. Throws std::runtime_error where it isn't there.
+/// OpenCV's imgcodecs and videoio. They bring 184 more shared libraries with them, 0.17 s of a
+/// program's start, so they are in a library of their own (libslamscope_codecs.so, beside the
+/// program), which the first call opens. Throws std::runtime_error where it isn't there.
 [[nodiscard]] const Codecs& codecs();
 
 }  // namespace slamscope::tracking

@@ -11,8 +11,6 @@ namespace slamscope::tracking::lab {
 /// so that only the first few rays that meet a part are asked for it.
 class PixelMean {
  public:
-  void clear() { parts_.clear(); }
-
   /// One ray meets `part`; `colour()` says how bright it is there.
   template <class Colour>
   void add(int part, const Colour& colour) {

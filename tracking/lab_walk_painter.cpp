@@ -190,14 +190,13 @@ Canvas WalkPainter::paint(const WalkMotion& motion) const {
   canvas.pixels.resize(static_cast<std::size_t>(width) * height);
   forEachRow(height, [&](int row) {
     const double place = (row + 0.5) / height;
-    PixelMean pixel;
     for (int column = 0; column < width; ++column) {
       const Corner *a = at(column, row), *b = at(column, row + 1);
       if (edges.at<std::uint8_t>(row, column) == 0) {
         canvas.at(column, row) = 0.25F * (a[0].colour + a[1].colour + b[0].colour + b[1].colour);
         continue;
       }
-      pixel.clear();
+      PixelMean pixel;
       for (const LatticePoint& p : kQuick) {
         const std::size_t pose = motion.robot.at(place, p.moment);
         const Ray ray = rayOf(scene, lens_.direction(column, row, p.x, p.y), pose);

@@ -135,9 +135,7 @@ bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
       continue;
     }
     std::erase_if(*common, [&](WrongReading& c) {
-      const auto again =
-          std::find_if(fitting.begin(), fitting.end(),
-                       [&](const WrongReading& other) { return other.pattern == c.pattern; });
+      const auto again = std::ranges::find(fitting, c.pattern, &WrongReading::pattern);
       if (again == fitting.end()) return true;
       c.misfit = std::max(c.misfit, again->misfit);
       return false;
@@ -147,9 +145,7 @@ bool linearisedElsewhere(const Transition& t, const LinearisationPoints& points,
   // way): the one that does so best.
   const WrongReading* found = nullptr;
   if (common && !common->empty())
-    found = &*std::min_element(
-        common->begin(), common->end(),
-        [](const WrongReading& a, const WrongReading& b) { return a.misfit < b.misfit; });
+    found = &*std::ranges::min_element(*common, {}, &WrongReading::misfit);
   if (found == nullptr && farthest < kNearly) return false;  // explained by whoever asks next
   const bool near_enough = farthest < kFar || (found != nullptr && found->misfit < kExactly);
   if (found != nullptr && !found->allow.empty() && near_enough) {
