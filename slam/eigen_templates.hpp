@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Eigen's decompositions of the sizes used here, declared once for all: each costs one to four
 // seconds of compile time in every file that instantiates it, and eigen_templates.cpp does it for
-// all of them. Part of the precompiled headers; code built without it only compiles longer.
+// all of them (small matrices take the eigenvalues of MatrixXd too). Part of the precompiled
+// headers; code built without it only compiles longer.
 #pragma once
 
 #include <Eigen/Dense>
@@ -12,13 +13,8 @@
 #define SLAMSCOPE_EIGEN_TEMPLATES(declared)                                                        \
   SLAMSCOPE_EIGEN_COMPUTE(declared, LLT<Eigen::MatrixXd>, const Eigen::EigenBase<Eigen::MatrixXd>&); \
   SLAMSCOPE_EIGEN_COMPUTE(declared, LLT<Eigen::Matrix2d>, const Eigen::EigenBase<Eigen::Matrix2d>&); \
-  SLAMSCOPE_EIGEN_COMPUTE(declared, LDLT<Eigen::Matrix2d>, const Eigen::EigenBase<Eigen::Matrix2d>&); \
   SLAMSCOPE_EIGEN_COMPUTE(declared, SelfAdjointEigenSolver<Eigen::MatrixXd>,                       \
                           const Eigen::EigenBase<Eigen::MatrixXd>&, int);                          \
-  SLAMSCOPE_EIGEN_COMPUTE(declared, SelfAdjointEigenSolver<Eigen::Matrix2d>,                       \
-                          const Eigen::EigenBase<Eigen::Matrix2d>&, int);                          \
-  SLAMSCOPE_EIGEN_COMPUTE(declared, SelfAdjointEigenSolver<Eigen::Matrix3d>,                       \
-                          const Eigen::EigenBase<Eigen::Matrix3d>&, int);                          \
   declared template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::computeInPlace()
 // clang-format on
 

@@ -129,7 +129,7 @@ bool EkfSlam::passes(const Observation& observation) {
   if (!options_.gate_probability) return true;
   const LinearisedObservation o = equations_->linearise(state_, observation);
   const Eigen::Matrix2d S = equations_->innovationCovariance(state_, o);
-  const double squared_mahalanobis = o.innovation.dot(S.ldlt().solve(o.innovation));
+  const double squared_mahalanobis = o.innovation.dot(S.inverse() * o.innovation);
   // Written so that what is not a number passes: it is no outlier, the update looks at it.
   if (!(squared_mahalanobis > chiSquare2(*options_.gate_probability))) return true;
   ++counters_.gated_out;

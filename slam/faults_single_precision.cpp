@@ -5,11 +5,11 @@ namespace slamscope::slam {
 
 void SinglePrecision::predictCovariance(EkfState& state, const Eigen::Matrix3d& F,
                                         const Eigen::Matrix3d& Q) {
-  const Eigen::Matrix3f F_x = F.cast<float>();
+  const Eigen::MatrixXf F_x = F.cast<float>();
   Eigen::MatrixXf P = state.P.cast<float>();
-  P.topRows<3>() = (F_x * P.topRows<3>()).eval();
-  P.leftCols<3>() = (P.leftCols<3>() * F_x.transpose()).eval();
-  P.topLeftCorner<3, 3>() += Q.cast<float>();
+  P.topRows(3) = F_x.lazyProduct(P.topRows(3)).eval();
+  P.leftCols(3) = P.leftCols(3).lazyProduct(F_x.transpose()).eval();
+  P.topLeftCorner(3, 3) += Q.cast<float>();
   state.P = P.cast<double>();
 }
 
@@ -33,13 +33,15 @@ void SinglePrecision::updateCovariance(EkfState& state, const Correction& correc
 void SinglePrecision::initialiseCovariance(EkfState& state, const Matrix23d& G_v,
                                            const Eigen::Matrix2d& G_z, const Eigen::Matrix2d& R) {
   const int old = state.size() - 2;
-  const Eigen::Matrix<float, 2, 3> G = G_v.cast<float>();
-  const Eigen::Matrix2f noise = (G_z * R * G_z.transpose()).cast<float>();
+  const Eigen::MatrixXf G = G_v.cast<float>();
+  const Eigen::Matrix2d noise = G_z * R * G_z.transpose();
   const Eigen::MatrixXf P = state.P.topLeftCorner(old, old).cast<float>();
-  state.P.bottomLeftCorner(2, old) = (G * P.topRows<3>()).cast<double>();
-  state.P.topRightCorner(old, 2) = (P.leftCols<3>() * G.transpose()).cast<double>();
-  state.P.bottomRightCorner<2, 2>() =
-      (G * P.topLeftCorner<3, 3>() * G.transpose() + noise).cast<double>();
+  const Eigen::MatrixXf left = G.lazyProduct(P.topRows(3));
+  const Eigen::MatrixXf right = P.leftCols(3).lazyProduct(G.transpose());
+  const Eigen::MatrixXf P_ll = left.leftCols(3).lazyProduct(G.transpose());
+  state.P.bottomLeftCorner(2, old) = left.cast<double>();
+  state.P.topRightCorner(old, 2) = right.cast<double>();
+  state.P.bottomRightCorner(2, 2) = (P_ll + noise.cast<float>()).cast<double>();
 }
 
 std::optional<double> SinglePrecision::asymmetry(const EkfState& state) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/window/displays.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "apps/slamscope/verbs.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/lib/view/hmd.hpp"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "apps/slamscope/monitor_flags.hpp"

@@ -2,6 +2,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
 #include <string>
@@ -70,21 +71,7 @@ int run(int argc, char** argv) {
   program.footer("Example: slamscope demo\nEach verb has its own --help with an example.");
   program.require_subcommand(1);
   program.option_defaults()->always_capture_default();
-#ifdef SLAMSCOPE_VIEW
-  addDemo(program);
-  addMonitor(program);
-  addHmd(program);
-#endif
-  addSimulate(program);
-  addSlam(program);
-  addAudit(program);
-  addInfo(program);
-  addConvert(program);
-#ifdef SLAMSCOPE_VIEW
-  addCalibrate(program);
-  addDevices(program);
-  addDisplays(program);
-#endif
+  for (const AddVerb add : verbs()) add(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::RuntimeError& result) {  // a verb that answers by its exit status

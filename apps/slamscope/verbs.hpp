@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <vector>
+
+namespace CLI {
+class App;
+}
 
 // The verbs of the command line, each in a file of its own. A verb adds its subcommand; the
 // subcommand's callback does the work and throws std::exception where the request can't be met.
@@ -18,5 +22,10 @@ void addCalibrate(CLI::App& program);
 void addDevices(CLI::App& program);
 void addHmd(CLI::App& program);
 void addDisplays(CLI::App& program);
+
+using AddVerb = void (*)(CLI::App& program);
+
+/// The verbs of this build, in the order of the help.
+std::vector<AddVerb> verbs();
 
 }  // namespace slamscope::apps

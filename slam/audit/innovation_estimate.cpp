@@ -118,7 +118,7 @@ InnovationEstimate estimateInnovation(const Transition& t, const UpdateAnatomy& 
     one.id = t.id(anatomy.observed[k]);
     const Eigen::Matrix2d S_i = S.block<2, 2>(column, column);
     const Eigen::Vector2d nu = innovation.segment<2>(column);
-    one.nis = nu.dot(S_i.ldlt().solve(nu));
+    one.nis = nu.dot(S_i.inverse() * nu);
     one.dof = 2;
     one.R_map = S_i - projected(t, anatomy.basis.W, column, anatomy.observed[k], anatomy.deltas[k]);
     one.R_error = noiseError(t, inverse.least, S_i, one.R_map);

@@ -88,7 +88,8 @@ Outcome judgeFeature(const Transition& t, int index, int end, Sensor sensor,
     if (cross.given <= tolerance) outcome.patterns.emplace_back("initialise-uncorrelated");
   }
   const Eigen::Matrix2d noise = P_ll - from_pose;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(noise);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(noise),
+                                                             Eigen::EigenvaluesOnly);
   const double least = eigen.eigenvalues()[0] / unit;
   const std::optional<Eigen::Matrix2d> lawful = lawfulNoise(s, index, sensor, R);
   const double off = lawful ? (noise - *lawful).cwiseAbs().maxCoeff() / unit : 0.0;

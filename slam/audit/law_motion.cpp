@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "slam/angle.hpp"
+#include "slam/audit/thin_q.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -77,8 +78,11 @@ std::optional<Eigen::Matrix3d> estimated(const RobotRows& cross, double noise) {
   const Eigen::MatrixXd A = (length.cwiseInverse().asDiagonal() * cross.before).transpose();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
   if (!(std::abs(qr.matrixR()(2, 2)) > std::max(1e-6, 1e3 * noise))) return std::nullopt;
-  return Eigen::Matrix3d(qr.solve(cross.after.transpose()).transpose() *
-                         length.cwiseInverse().asDiagonal());
+  const Eigen::Matrix3d R = qr.matrixR().topLeftCorner<3, 3>();
+  const Eigen::MatrixXd Q_after = (cross.after * thinQ(qr, 3)).transpose();
+  const Eigen::Matrix3d F_transposed =
+      qr.colsPermutation() * R.triangularView<Eigen::Upper>().solve(Eigen::Matrix3d(Q_after));
+  return Eigen::Matrix3d(F_transposed.transpose() * length.cwiseInverse().asDiagonal());
 }
 
 void showEntries(const Eigen::Matrix3d& F, const Eigen::Matrix3d& lawful, Outcome& outcome) {

@@ -49,7 +49,8 @@ Outcome checkProcessNoise(const Transition& t, const std::optional<Eigen::Matrix
     scale[r] = variance > 1e-200 ? 1.0 / std::sqrt(variance) : 0.0;
   }
   const Eigen::Matrix3d Q_scaled = scale.asDiagonal() * Q * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(Q_scaled);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(Q_scaled),
+                                                             Eigen::EigenvaluesOnly);
   const Eigen::Vector2d d = t.after->pose.head<2>() - t.before->pose.head<2>();
   const double spread = 1.0 + d.norm() * t.sigma[2] * std::max(scale[0], scale[1]);
   const double tolerance = 1e-7 + 12.0 * t.noise * spread * spread +

@@ -51,7 +51,7 @@ double relief(const Eigen::MatrixXd& Q, const Eigen::MatrixXd& outside, int row,
   const Eigen::MatrixXd r = outside.middleRows(row, rows);
   Eigen::MatrixXd G = Eigen::MatrixXd::Identity(rows, rows) - Q_b * Q_b.transpose();
   G.diagonal().array() += 1e-12;
-  return (r.transpose() * G.ldlt().solve(r)).trace();
+  return (r.transpose() * G.llt().solve(r)).trace();
 }
 
 /// Features with a variance that an update made larger.

@@ -4,7 +4,14 @@
 namespace slamscope::slam {
 
 Eigen::MatrixXd thinQ(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr, Eigen::Index columns) {
-  return qr.householderQ() * Eigen::MatrixXd::Identity(qr.rows(), columns);
+  const Eigen::Index rows = qr.rows();
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(rows, columns);
+  Eigen::VectorXd workspace(columns);
+  for (Eigen::Index k = qr.hCoeffs().size(); k-- > 0;) {
+    Q.bottomRows(rows - k).applyHouseholderOnTheLeft(qr.matrixQR().col(k).tail(rows - k - 1),
+                                                     qr.hCoeffs()[k], workspace.data());
+  }
+  return Q;
 }
 
 }  // namespace slamscope::slam

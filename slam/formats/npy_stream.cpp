@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <regex>
 #include <stdexcept>
 
 namespace slamscope::slam {
@@ -18,12 +17,20 @@ constexpr std::size_t kBatch = 8192;  // numbers converted at a time
   throw std::runtime_error(text);
 }
 
-std::string field(const std::string& header, const char* pattern, const std::string& name) {
-  std::smatch found;
-  if (!std::regex_search(header, found, std::regex(pattern))) {
+constexpr const char* kDigits = "0123456789";
+
+/// What stands behind `'key':` and spaces, between `opening` and the first of `closing`.
+std::string field(const std::string& header, const std::string& key, const std::string& opening,
+                  const char* closing, const std::string& name) {
+  const std::string label = "'" + key + "':";
+  std::size_t begin = header.find(label);
+  if (begin != header.npos) begin = header.find_first_not_of(" \t", begin + label.size());
+  if (begin == header.npos || header.compare(begin, opening.size(), opening) != 0) {
     failHeader("expected " + name + " in the header of the array, found none");
   }
-  return found[1];
+  begin += opening.size();
+  return header.substr(begin,
+                       std::min(header.size(), header.find_first_of(closing, begin)) - begin);
 }
 
 template <class From>
@@ -82,29 +89,33 @@ void NpyStream::parse(const std::string& header) {
     failHeader(
         "expected numbers, found records of several fields: save x and P as arrays of their own");
   }
-  const std::string type = field(header, R"('descr':\s*'([^']*)')", "the type of numbers");
+  const std::string type = field(header, "descr", "'", "'", "the type of numbers");
   if (type.find('O') != type.npos) {
     failHeader(
         "an object array (pickled Python objects, which are not read): save with np.savez(..., "
         "x=..., P=...) as float arrays; pad with NaN");
   }
-  reversed_ = field(header, R"('fortran_order':\s*(\w+))", "the order") == "True";
-  const std::string shape = field(header, R"('shape':\s*\(([^)]*)\))", "the shape");
-  const std::regex digits(R"(\d+)");
-  for (std::sregex_iterator k(shape.begin(), shape.end(), digits), end; k != end; ++k) {
-    if (k->str().size() > 15) failHeader("the shape of the array is damaged");
-    shape_.push_back(std::stoull(k->str()));
+  reversed_ = field(header, "fortran_order", "", ",} ", "the order") == "True";
+  const std::string shape = field(header, "shape", "(", ")", "the shape");
+  for (std::size_t at = shape.find_first_of(kDigits); at != shape.npos;) {
+    const std::size_t end = std::min(shape.size(), shape.find_first_not_of(kDigits, at));
+    if (end - at > 15) failHeader("the shape of the array is damaged");
+    shape_.push_back(std::stoull(shape.substr(at, end - at)));
+    at = shape.find_first_of(kDigits, end);
   }
   static_cast<void>(numbersIn(shape_));
   if (reversed_ && shape_.size() < 2) reversed_ = false;
   if (reversed_) std::reverse(shape_.begin(), shape_.end());
-  std::smatch parts;
-  if (!std::regex_match(type, parts, std::regex(R"(([<>|=]?)([a-zA-Z])(\d{1,6}))"))) {
+  // Byte order, kind, bytes: "<f8".
+  const std::size_t kind = type.find_first_not_of("<>|=");
+  const std::string bytes = kind < type.size() ? type.substr(kind + 1) : "";
+  if (kind > 1 || bytes.empty() || bytes.size() > 6 ||
+      bytes.find_first_not_of(kDigits) != bytes.npos) {
     failHeader("expected numbers (float64), found type '" + type + "'");
   }
-  big_endian_ = parts[1] == ">";
-  kind_ = parts[2].str().front();
-  item_ = std::stoul(parts[3]) * (kind_ == 'U' ? 4 : 1);
+  big_endian_ = type.front() == '>';
+  kind_ = type[kind];
+  item_ = std::stoul(bytes) * (kind_ == 'U' ? 4 : 1);
   if (!isText() && conversion(kind_, item_) == nullptr) {
     failHeader("expected numbers of type float64 or float32, found '" + type + "'");
   }

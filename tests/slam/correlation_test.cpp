@@ -54,7 +54,7 @@ TEST(PrincipalAxes, AgreeWithTheGeneralSolver) {
     const Eigen::Matrix2d P = randomCovariance(2, random) * std::pow(10.0, random.uniform(-8, 2));
     const PrincipalAxes axes = principalAxes(P);
     const Eigen::Vector2d reference =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(P).eigenvalues();
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(P).eigenvalues();
     EXPECT_NEAR(axes.eigenvalues[0], reference[1], 1e-13 * reference[1]);
     EXPECT_NEAR(axes.eigenvalues[1], reference[0], 1e-13 * reference[1]);
     const Eigen::Matrix2d V = axes.directions();

@@ -143,7 +143,7 @@ double meanNees(double sigma_scale) {
     Eigen::Vector3d error = state.pose() - simulation.truth().pose;
     error[2] = wrapAngle(error[2]);
     const Eigen::Matrix3d P = state.P.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
-    sum += error.dot(P.ldlt().solve(error)) * sigma_scale;
+    sum += error.dot(P.llt().solve(error)) * sigma_scale;
   }
   return sum / kRuns;
 }

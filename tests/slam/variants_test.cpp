@@ -48,7 +48,7 @@ double featureNees(const VariantRun& outcome) {
     const Eigen::Vector2d error =
         state.x.segment<2>(row) - outcome.truth.features[state.ids[k] - 1];
     const Eigen::Matrix2d P = state.P.block<2, 2>(row, row).selfadjointView<Eigen::Lower>();
-    sum += error.dot(P.ldlt().solve(error));
+    sum += error.dot(P.llt().solve(error));
   }
   return sum / static_cast<double>(2 * state.ids.size());
 }
