@@ -59,10 +59,13 @@ struct Blame {
 };
 
 /// The offending number beside the one that the law demands, from the worst record.
+enum class LawfulIs { exactly, at_most, at_least };
+
 struct Evidence {
   std::string what;  ///< "F(1,3)", "P of feature 7, var x", …
   double given = 0.0;
   double lawful = 0.0;
+  LawfulIs lawful_is = LawfulIs::exactly;
 };
 
 struct LawReport {

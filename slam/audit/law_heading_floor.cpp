@@ -30,7 +30,8 @@ Outcome HeadingFloorLaw::check(const Snapshot& snapshot, double noise) {
   if (!outcome.violated()) return outcome;
   outcome.amount =
       "the heading's sigma falls below that of the start, which relative sensing can't";
-  outcome.show("sigma of the heading", std::sqrt(std::max(variance, 0.0)), std::sqrt(*at_start_));
+  outcome.show("sigma of the heading", std::sqrt(std::max(variance, 0.0)), std::sqrt(*at_start_),
+               LawfulIs::at_least);
   return outcome;
 }
 

@@ -47,7 +47,7 @@ Outcome checkNees(const Snapshot& snapshot, double alpha) {
     if (nees.value / bound <= outcome.residual) return;
     outcome.residual = nees.value / bound;
     outcome.evidence.clear();
-    outcome.show("NEES of " + what + ", lawful at most", nees.value, bound);
+    outcome.show("NEES of " + what, nees.value, bound, LawfulIs::at_most);
   };
   Eigen::Vector3d error = snapshot.pose - snapshot.truth->pose;
   error[2] = wrapAngle(error[2]);

@@ -67,7 +67,7 @@ Outcome judged(const Snapshot& snapshot, const std::vector<int>& states, double 
     if (w > 0.1 * total && total > 0.0) outcome.blame.push_back({id, w / total});
   }
   outcome.amount = "P has a negative eigenvalue, " + std::to_string(least) + " after scaling";
-  outcome.show("least eigenvalue of P, scaled", least, 0.0);
+  outcome.show("least eigenvalue of P, scaled", least, 0.0, LawfulIs::at_least);
   return outcome;
 }
 

@@ -63,7 +63,7 @@ Outcome checkProcessNoise(const Transition& t, const std::optional<Eigen::Matrix
     }
     outcome.amount = "a prediction takes uncertainty away: P_vv - F P_vv F^T is negative";
     const std::string what = "least eigenvalue of P_vv - F P_vv F^T, scaled";
-    outcome.show(what, eigen.eigenvalues()[0], 0.0);
+    outcome.show(what, eigen.eigenvalues()[0], 0.0, LawfulIs::at_least);
     return outcome;
   }
   if (!motion_whole) return outcome;

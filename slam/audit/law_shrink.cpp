@@ -99,11 +99,11 @@ void describe(const Transition& t, const Growth& growth, Outcome& outcome) {
     const int r = Snapshot::row(growth.feature);
     const int axis = t.change(r + 1, r + 1) < t.change(r, r) ? 1 : 0;
     const auto id = static_cast<unsigned long long>(t.id(growth.feature));
-    std::snprintf(text, sizeof text, "the variance of feature %llu grows by up to %.2g %%", id,
+    std::snprintf(text, sizeof text, "the variance of feature %llu grows by %.2g %%", id,
                   100.0 * growth.of_feature);
-    outcome.show("variance of feature " + std::to_string(id) +
-                     (axis == 0 ? " in x, lawful at most" : " in y, lawful at most"),
-                 t.after->covariance(r + axis, r + axis), t.before->covariance(r + axis, r + axis));
+    outcome.show("variance of feature " + std::to_string(id) + (axis == 0 ? " in x" : " in y"),
+                 t.after->covariance(r + axis, r + axis), t.before->covariance(r + axis, r + axis),
+                 LawfulIs::at_most);
   } else if (growth.i >= 0) {
     std::snprintf(text, sizeof text, "P_d of features %llu and %llu grows by %.2g %% of their own",
                   static_cast<unsigned long long>(t.id(growth.j)),

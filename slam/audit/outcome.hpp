@@ -28,7 +28,8 @@ struct Outcome {
   [[nodiscard]] bool violated() const { return checked() && !(residual <= tolerance); }
 
   /// Adds evidence: the number found beside the one that the law demands.
-  void show(std::string_view what, double given, double lawful);
+  void show(std::string_view what, double given, double lawful,
+            LawfulIs lawful_is = LawfulIs::exactly);
 
   [[nodiscard]] static Outcome of(double residual, double tolerance) {
     Outcome outcome;

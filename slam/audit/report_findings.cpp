@@ -5,6 +5,30 @@
 #include <cstdio>
 
 namespace slamscope::slam {
+namespace {
+
+std::string signedText(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%+.4g", value);
+  return text;
+}
+
+}  // namespace
+
+std::string givenText(const Evidence& evidence) {
+  return signedText(evidence.given);
+}
+
+std::string lawfulText(const Evidence& evidence) {
+  switch (evidence.lawful_is) {
+    case LawfulIs::at_most:
+      return "at most " + signedText(evidence.lawful);
+    case LawfulIs::at_least:
+      return "at least " + signedText(evidence.lawful);
+    default:
+      return signedText(evidence.lawful);
+  }
+}
 
 std::string timeText(double time_s) {
   char text[40];
@@ -37,7 +61,9 @@ std::vector<Finding> findingsOf(const AuditReport& report) {
 
 std::string_view verdictWords(const AuditReport& report) {
   if (report.verdict == Verdict::inconclusive) return "too little to judge";
-  return report.classes.empty() ? "no law is broken" : "laws are broken";
+  if (report.classes.empty()) return "no law is broken";
+  const bool only_warns = report.classes == std::set{FaultClass::linearisation};
+  return only_warns ? "no exact law is broken, with a warning" : "laws are broken";
 }
 
 std::string missingWords(const AuditReport& report) {

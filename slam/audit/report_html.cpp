@@ -62,12 +62,6 @@ std::string tagged(std::string_view name, std::string_view attributes, std::stri
   return out.append(">").append(escapedHtml(text)).append("</").append(name).append(">");
 }
 
-std::string signedText(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%+.4g", value);
-  return text;
-}
-
 std::string recordLink(const LawReport& law) {
   if (!law.first_record) return {};
   const std::string record = std::to_string(*law.first_record);
@@ -128,8 +122,7 @@ std::string evidenceHtml(const Finding& finding) {
   for (const LawReport* law : finding) {
     for (const Evidence& e : law->evidence) {
       rows.append("<tr>").append(tagged("th", "scope=\"row\"", e.what));
-      rows += tagged("td", "", signedText(e.given)) + tagged("td", "", signedText(e.lawful)) +
-              "</tr>\n";
+      rows += tagged("td", "", givenText(e)) + tagged("td", "", lawfulText(e)) + "</tr>\n";
     }
   }
   if (rows.empty()) return {};

@@ -25,8 +25,12 @@ Json lawJson(const LawReport& law) {
   }
   Json evidence = Json::array();
   for (const Evidence& e : law.evidence) {
-    evidence.push_back(
-        {{"what", e.what}, {"given", number(e.given)}, {"lawful", number(e.lawful)}});
+    Json& json = evidence.emplace_back();
+    json["what"] = e.what;
+    json["given"] = number(e.given);
+    json["lawful"] = number(e.lawful);
+    if (e.lawful_is == LawfulIs::at_most) json["lawful_is"] = "at most";
+    if (e.lawful_is == LawfulIs::at_least) json["lawful_is"] = "at least";
   }
   Json json;
   json["law"] = lawName(law.law);

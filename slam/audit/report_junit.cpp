@@ -42,8 +42,7 @@ std::string detailsOf(const LawReport& law) {
     text += "feature " + std::to_string(b.feature) + ": share " + std::to_string(b.share) + '\n';
   }
   for (const Evidence& e : law.evidence) {
-    text += e.what + ": yours " + std::to_string(e.given) + ", lawful " + std::to_string(e.lawful) +
-            '\n';
+    text += e.what + ": yours " + givenText(e) + ", lawful " + lawfulText(e) + '\n';
   }
   return text;
 }

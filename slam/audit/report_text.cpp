@@ -13,12 +13,6 @@ namespace {
 constexpr std::size_t kLabel = 18;
 constexpr std::size_t kWidth = 100;
 
-std::string numberText(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%+.4g", value);
-  return text;
-}
-
 /// A label and its text, wrapped under itself.
 void line(std::string& out, std::string_view label, std::string_view text) {
   std::string head(label);
@@ -104,7 +98,7 @@ void paragraph(std::string& out, const Finding& group) {
   for (const LawReport* law : group) {
     for (const Evidence& e : law->evidence) {
       if (++shown > 6) return;
-      line(out, e.what, "yours " + numberText(e.given) + ", lawful " + numberText(e.lawful));
+      line(out, e.what, "yours " + givenText(e) + ", lawful " + lawfulText(e));
     }
   }
 }

@@ -33,6 +33,22 @@ TEST(AuditText, NamesLawTimeFeatureAndMistake) {
   EXPECT_TRUE(contains(text, "not checked")) << text;
 }
 
+TEST(AuditText, SaysWhereTheLawGivesABound) {
+  const std::string text = reportText(faulty());
+  const std::size_t line = text.find("variance of feature 8 in ");
+  ASSERT_NE(line, std::string::npos) << text;
+  EXPECT_LT(text.find(", lawful at most +", line), text.find('\n', line)) << text;
+}
+
+TEST(AuditText, CallsLinearisationAloneAWarning) {
+  SimulationOptions options = oneLoop(1);
+  options.initial_sigma = Eigen::Vector3d(0.01, 0.01, 0.2);
+  const std::string text = reportText(auditRun(options));
+  EXPECT_TRUE(contains(text, "no exact law is broken, with a warning")) << text;
+  EXPECT_TRUE(contains(text, "LINEARISATION")) << text;
+  EXPECT_TRUE(contains(text, "lawful at least +0.2\n")) << text;
+}
+
 TEST(AuditText, IsAtMostAHundredWide) {
   const std::string text = reportText(faulty());
   for (std::size_t begin = 0; begin < text.size();) {

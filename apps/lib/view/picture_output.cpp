@@ -119,7 +119,8 @@ std::unique_ptr<PictureOutput> openPictureOutput(const fs::path& target, double 
     const int digits = parts[2].length() > 0 ? std::stoi(parts[2]) : 1;
     return std::make_unique<NumberedPngs>(parts[1], std::clamp(digits, 1, 12), parts[3]);
   }
-  throw std::runtime_error(name + ": an output is NAME.mp4 or NAME-%05d.png");
+  throw std::runtime_error(
+      name + ": --output takes NAME.mp4 or NAME-%05d.png; for the last picture alone --picture");
 }
 
 void writePicture(const fs::path& file, const engine::Image& picture) {
