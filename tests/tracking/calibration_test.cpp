@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -241,7 +242,8 @@ TEST(RoomCalibration, RefusesWalksThatDoNotHangTogether) {
 }
 
 TEST(RigFile, ComesBackAsItWasWritten) {
-  const auto file = std::filesystem::temp_directory_path() / "slamscope_rig_test.yaml";
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("slamscope_rig" + std::to_string(::getpid()) + ".yaml");
   Rig rig = defaultLabRig();
   rig.cameras[1].readout = std::chrono::microseconds(20500);
   rig.cameras[1].time_offset = std::chrono::microseconds(-3500);

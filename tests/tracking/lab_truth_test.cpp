@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -30,8 +33,8 @@ class LabTruth : public ::testing::Test {
   ~LabTruth() override { std::filesystem::remove(file_); }
 
   LabOptions options_ = defaultLab();
-  std::filesystem::path file_ =
-      std::filesystem::path(::testing::TempDir()) / "slamscope_lab_truth.json";
+  std::filesystem::path file_ = std::filesystem::temp_directory_path() /
+                                ("slamscope_lab_truth" + std::to_string(::getpid()) + ".json");
   Json truth_;
 };
 

@@ -56,6 +56,20 @@ struct CornerErrors {
   int missed = 0, unrefined = 0;
 };
 
+/// Corners of a tag turned by 45 degrees or so and seen at a grazing angle: a flat diamond.
+Corners diamond(double side, std::mt19937& random) {
+  std::uniform_real_distribution<double> any(-0.5, 0.5);
+  const Vector2d centre(std::round(0.75 * side + 20) + any(random), 0.75 * side + 20);
+  const Eigen::Rotation2Dd turn(M_PI / 4 + 0.2 * any(random));
+  const auto p_tag = tagCorners(side);
+  Corners corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector2d turned = turn * Vector2d(p_tag[i].x(), -p_tag[i].y());
+    corners[i] = centre + Vector2d(turned.x(), 0.45 * turned.y());
+  }
+  return corners;
+}
+
 /// `offset`: what is done to the corners found before they are compared.
 CornerErrors measure(double side, double blur, const TagDetectorOptions& options,
                      const Vector2d& offset = {0, 0}) {
@@ -238,6 +252,32 @@ TEST(TagDetector, SmallTagsAreStillFoundAndTheirSigmaSaysSo) {
   EXPECT_EQ(errors.missed, 0);
   EXPECT_EQ(errors.unrefined, 8);
   EXPECT_LT(errors.nees, 2.5);
+}
+
+TEST(TagDetector, SharpCornersOfSmallTagsAreKnownToBeWorse) {
+  std::mt19937 random(3);
+  TagDetector detector;
+  double sharp_chi2 = 0;  // 2.6 with a sigma that knows nothing of sharpness
+  constexpr int kTags = 40;
+  for (int k = 0; k < kTags; ++k) {
+    const Corners truth = diamond(22, random);
+    Rendering rendering = through(truth);
+    rendering.width = rendering.height = 73;
+    rendering.blur_px = 0.5;
+    rendering.seed = unsigned(k) + 1;
+    const auto tags = detector.detect(view(render(PrintedTag(k % 8), rendering)));
+    ASSERT_EQ(tags.size(), 1U);
+    ASSERT_FALSE(tags[0].refined);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double e2 = (tags[0].corners_px[i] - truth[i]).squaredNorm() / 2;
+      const double sigma = tags[0].sigma_px[i];
+      EXPECT_LT(std::sqrt(2 * e2), 6 * sigma) << "the tracker would leave it out";
+      const bool sharp = std::abs(truth[i].x() - truth[(i + 2) % 4].x()) > 15;
+      if (sharp) sharp_chi2 += e2 / (sigma * sigma) / (2 * kTags);
+    }
+  }
+  EXPECT_LT(sharp_chi2, 1.6);
+  EXPECT_GT(sharp_chi2, 0.15);
 }
 
 TEST(TagDetector, FirstCornerIsTheLowerLeftOfTheUprightTag) {
