@@ -104,7 +104,11 @@ std::vector<ExpectedReading> expectedReadings(const EkfState& state, Sensor sens
   for (std::size_t k = 0; k < result.size(); ++k) {
     ExpectedReading& e = result[k];
     const int row = Snapshot::row(static_cast<int>(k));
-    e.z = observeFeature(sensor, state.pose(), state.x.segment<2>(row), &e.H_v, &e.H_f);
+    const Eigen::Vector2d feature = state.x.segment<2>(row);
+    e.z = observeFeature(sensor, state.pose(), feature);
+    const ObserveJacobians jacobians = observeJacobians(sensor, state.pose(), feature);
+    e.H_v = jacobians.H_v;
+    e.H_f = jacobians.H_f;
     const Eigen::Matrix2d P_ff = state.P.block<2, 2>(row, row).selfadjointView<Eigen::Lower>();
     const Eigen::Matrix2d cross = e.H_f * state.P.block<2, 3>(row, 0) * e.H_v.transpose();
     e.HPHt = e.H_v * P_vv * e.H_v.transpose() + cross + cross.transpose() +

@@ -146,10 +146,8 @@ Eigen::Vector2d EkfEquations::innovation(const EkfState& state, int row, const E
 }
 
 ObservationJacobian EkfEquations::observationJacobian(const EkfState& state, int row) {
-  ObservationJacobian H;
-  H.column = row;
-  observeFeature(sensor_, state.pose(), state.x.segment<2>(row), &H.H_v, &H.H_f);
-  return H;
+  const auto [H_v, H_f] = observeJacobians(sensor_, state.pose(), state.x.segment<2>(row));
+  return {H_v, H_f, row};
 }
 
 LinearisedObservation EkfEquations::linearise(const EkfState& state,

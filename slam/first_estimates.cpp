@@ -21,10 +21,8 @@ ObservationJacobian FirstEstimates::observationJacobian(const EkfState& state, i
   const auto first = first_.find(state.ids[static_cast<std::size_t>((row - 3) / 2)]);
   const Eigen::Vector2d feature =
       first == first_.end() ? Eigen::Vector2d(state.x.segment<2>(row)) : first->second;
-  ObservationJacobian H;
-  H.column = row;
-  observeFeature(sensor(), predicted_.value_or(state.pose()), feature, &H.H_v, &H.H_f);
-  return H;
+  const auto [H_v, H_f] = observeJacobians(sensor(), predicted_.value_or(state.pose()), feature);
+  return {H_v, H_f, row};
 }
 
 void FirstEstimates::initialise(EkfState& state, const Observation& observation) {

@@ -8,14 +8,12 @@ namespace slamscope::slam {
 
 Eigen::Vector2d readingFromRobot(const Eigen::Vector3d& pose_robot, const Eigen::Vector2d& z,
                                  Eigen::Matrix2d* J) {
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix2d dp_dz;
-  Eigen::Matrix2d dz_dp;
   const Eigen::Vector2d p_robot =
       locateFeature(Sensor::range_bearing, pose_robot, z, nullptr, J == nullptr ? nullptr : &dp_dz);
-  const Eigen::Vector2d result = observeFeature(Sensor::range_bearing, Eigen::Vector3d::Zero(),
-                                                p_robot, nullptr, J == nullptr ? nullptr : &dz_dp);
-  if (J != nullptr) *J = dz_dp * dp_dz;
-  return result;
+  if (J != nullptr) *J = observeJacobians(Sensor::range_bearing, origin, p_robot).H_f * dp_dz;
+  return observeFeature(Sensor::range_bearing, origin, p_robot);
 }
 
 LaserFrontEnd::LaserFrontEnd(const LaserMount& mount, const LaserPointOptions& options)

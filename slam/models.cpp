@@ -114,16 +114,26 @@ Eigen::Vector3d incrementBetween(const Eigen::Vector3d& from, const Eigen::Vecto
 }
 
 Eigen::Vector2d observeFeature(Sensor sensor, const Eigen::Vector3d& pose,
-                               const Eigen::Vector2d& feature, Matrix23d* H_v,
-                               Eigen::Matrix2d* H_f) {
+                               const Eigen::Vector2d& feature) {
   const Eigen::Vector2d d = feature - pose.head<2>();
-  Eigen::Vector2d z;
+  switch (sensor) {
+    case Sensor::range_bearing:
+      return {d.norm(), wrapAngle(std::atan2(d.y(), d.x()) - pose[2])};
+    case Sensor::relative_position:
+      return rotation(pose[2]).transpose() * d;
+    default:
+      throwUnknownSensor();
+  }
+}
+
+ObserveJacobians observeJacobians(Sensor sensor, const Eigen::Vector3d& pose,
+                                  const Eigen::Vector2d& feature) {
+  const Eigen::Vector2d d = feature - pose.head<2>();
   Eigen::Matrix2d dz_dd;      // z by d
   Eigen::Vector2d dz_dtheta;  // z by heading
   switch (sensor) {
     case Sensor::range_bearing: {
       const double range = d.norm();
-      z = {range, wrapAngle(std::atan2(d.y(), d.x()) - pose[2])};
       dz_dd.row(0) = d.transpose() / range;
       dz_dd.row(1) = turned(d).transpose() / (range * range);
       dz_dtheta = {0.0, -1.0};
@@ -131,15 +141,15 @@ Eigen::Vector2d observeFeature(Sensor sensor, const Eigen::Vector3d& pose,
     }
     case Sensor::relative_position:
       dz_dd = rotation(pose[2]).transpose();
-      z = dz_dd * d;
-      dz_dtheta = -turned(z);
+      dz_dtheta = -turned(dz_dd * d);
       break;
     default:
       throwUnknownSensor();
   }
-  if (H_v != nullptr) *H_v << -dz_dd, dz_dtheta;
-  if (H_f != nullptr) *H_f = dz_dd;
-  return z;
+  ObserveJacobians jacobians;
+  jacobians.H_v << -dz_dd, dz_dtheta;
+  jacobians.H_f = dz_dd;
+  return jacobians;
 }
 
 Eigen::Vector2d locateFeature(Sensor sensor, const Eigen::Vector3d& pose, const Eigen::Vector2d& z,

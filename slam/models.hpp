@@ -57,12 +57,20 @@ Eigen::Vector3d movePose(const Eigen::Vector3d& pose, const Eigen::Vector3d& inc
                                                const Eigen::Vector3d& to);
 
 /// h_i of equation (5): what a sensor at `pose` reads off `feature`. range_bearing: (m, rad);
-/// relative_position: (m, m) in the body frame. Jacobians by pose (H_v) and feature (H_f) on
-/// request. At zero distance the bearing and its Jacobian do not exist (Jacobian not finite).
-/// Throws std::invalid_argument for Sensor::unknown.
-Eigen::Vector2d observeFeature(Sensor sensor, const Eigen::Vector3d& pose,
-                               const Eigen::Vector2d& feature, Matrix23d* H_v = nullptr,
-                               Eigen::Matrix2d* H_f = nullptr);
+/// relative_position: (m, m) in the body frame. Throws std::invalid_argument for Sensor::unknown.
+[[nodiscard]] Eigen::Vector2d observeFeature(Sensor sensor, const Eigen::Vector3d& pose,
+                                             const Eigen::Vector2d& feature);
+
+/// Jacobians of observeFeature() by pose and by feature.
+struct ObserveJacobians {
+  Matrix23d H_v;
+  Eigen::Matrix2d H_f;
+};
+
+/// At zero distance the bearing has none (not finite). Throws std::invalid_argument for
+/// Sensor::unknown.
+[[nodiscard]] ObserveJacobians observeJacobians(Sensor sensor, const Eigen::Vector3d& pose,
+                                                const Eigen::Vector2d& feature);
 
 /// Inverse of h_i: where the feature stands that reads `z` from `pose`. Jacobians by pose (G_v) and
 /// by reading (G_z) on request. Throws std::invalid_argument for Sensor::unknown.

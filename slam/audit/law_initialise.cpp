@@ -52,8 +52,8 @@ Cross crossOf(const Snapshot& s, int index, int end) {
 std::optional<Eigen::Matrix2d> lawfulNoise(const Snapshot& s, int index, Sensor sensor,
                                            const std::optional<Eigen::Matrix2d>& R) {
   if (!R || sensor == Sensor::unknown) return std::nullopt;
-  Eigen::Matrix2d A;
-  observeFeature(sensor, s.pose, s.features[static_cast<std::size_t>(index)], nullptr, &A);
+  const Eigen::Matrix2d A =
+      observeJacobians(sensor, s.pose, s.features[static_cast<std::size_t>(index)]).H_f;
   if (!A.allFinite()) return std::nullopt;
   const Eigen::Matrix2d A_inverse = A.inverse();
   return Eigen::Matrix2d(A_inverse * *R * A_inverse.transpose());

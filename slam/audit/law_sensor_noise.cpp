@@ -74,8 +74,7 @@ Outcome checkSensorNoise(const Transition& t, const UpdateAnatomy& anatomy,
     const Eigen::Matrix2d& R = *declared;
     Eigen::Vector3d pose = t.before->pose;
     const Eigen::Vector2d l = pose.head<2>() + anatomy.deltas[k];
-    Eigen::Matrix2d A;
-    observeFeature(sensor, pose, l, nullptr, &A);
+    const Eigen::Matrix2d A = observeJacobians(sensor, pose, l).H_f;
     if (!A.allFinite()) continue;
     const Eigen::Matrix2d R_used = A * f.R_map * A.transpose();
     Outcome one = Outcome::of(difference(R_used, R), tolerance);

@@ -64,13 +64,12 @@ class SightingCost final : public ceres::SizedCostFunction<2, 3, 2> {
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    Matrix23d H_v;
-    Eigen::Matrix2d H_f;
-    const Eigen::Vector2d z =
-        observeFeature(Sensor::relative_position, Eigen::Map<const Eigen::Vector3d>(parameters[0]),
-                       Eigen::Map<const Eigen::Vector2d>(parameters[1]), &H_v, &H_f);
+    const Eigen::Vector3d pose = Eigen::Map<const Eigen::Vector3d>(parameters[0]);
+    const Eigen::Vector2d feature = Eigen::Map<const Eigen::Vector2d>(parameters[1]);
+    const Eigen::Vector2d z = observeFeature(Sensor::relative_position, pose, feature);
     Eigen::Map<Eigen::Vector2d>{residuals} = root_ * (z - z_);
     if (jacobians == nullptr) return true;
+    const auto [H_v, H_f] = observeJacobians(Sensor::relative_position, pose, feature);
     if (jacobians[0] != nullptr) RowMajor<2, 3>{jacobians[0]} = root_ * H_v;
     if (jacobians[1] != nullptr) RowMajor<2, 2>{jacobians[1]} = root_ * H_f;
     return true;

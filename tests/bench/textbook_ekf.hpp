@@ -35,10 +35,10 @@ class Textbook {
   static Eigen::Index row(const Observation& o) { return 3 + 2 * static_cast<Eigen::Index>(o.id); }
 
   void update(const Observation& o) {
-    Matrix23d H_v;
-    Eigen::Matrix2d H_f;
-    const Eigen::Vector2d z =
-        observeFeature(Sensor::range_bearing, x_.head<3>(), x_.segment<2>(row(o)), &H_v, &H_f);
+    const Eigen::Vector3d pose = x_.head<3>();
+    const Eigen::Vector2d feature = x_.segment<2>(row(o));
+    const Eigen::Vector2d z = observeFeature(Sensor::range_bearing, pose, feature);
+    const auto [H_v, H_f] = observeJacobians(Sensor::range_bearing, pose, feature);
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, x_.size());
     H.leftCols(3) = H_v;
     H.middleCols(row(o), 2) = H_f;

@@ -38,9 +38,8 @@ class DenseEkf {
     Eigen::Index k = 0;
     for (const Observation& o : observations) {
       const Eigen::Index f = row(o.id).value();
-      Matrix23d H_v;
-      Eigen::Matrix2d H_f;
-      const Eigen::Vector2d z = observeFeature(sensor_, x.head<3>(), x.segment<2>(f), &H_v, &H_f);
+      const Eigen::Vector2d z = observeFeature(sensor_, x.head<3>(), x.segment<2>(f));
+      const auto [H_v, H_f] = observeJacobians(sensor_, x.head<3>(), x.segment<2>(f));
       H.block<2, 3>(k, 0) = heading_sign * H_v;
       H.block<2, 2>(k, f) = H_f;
       R.block<2, 2>(k, k) = o.R;

@@ -140,9 +140,7 @@ TEST(Observation, JacobiansAreTheDerivatives) {
     for (const Eigen::VectorXd& argument : arguments(5, 3.0)) {
       Eigen::VectorXd x = argument;
       if ((x.tail<2>() - x.head<2>()).norm() < 0.2) x[3] += 1.0;  // no bearing at no distance
-      Matrix23d H_v;
-      Eigen::Matrix2d H_f;
-      observeFeature(sensor, x.head<3>(), x.tail<2>(), &H_v, &H_f);
+      const auto [H_v, H_f] = observeJacobians(sensor, x.head<3>(), x.tail<2>());
       const Eigen::MatrixXd numeric = centralDifferences(
           [sensor](const Eigen::VectorXd& a) -> Eigen::VectorXd {
             return observeFeature(sensor, a.head<3>(), a.tail<2>());
@@ -202,7 +200,10 @@ TEST(Observation, DifferenceOfBearingsWraps) {
 }
 
 TEST(Observation, UnknownSensorIsRefused) {
-  EXPECT_THROW(observeFeature(Sensor::unknown, Eigen::Vector3d::Zero(), {1.0, 0.0}),
+  const Eigen::Vector3d pose = Eigen::Vector3d::Zero();
+  EXPECT_THROW(static_cast<void>(observeFeature(Sensor::unknown, pose, {1.0, 0.0})),
+               std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(observeJacobians(Sensor::unknown, pose, {1.0, 0.0})),
                std::invalid_argument);
   EXPECT_THROW(locateFeature(Sensor::unknown, Eigen::Vector3d::Zero(), {1.0, 0.0}),
                std::invalid_argument);
