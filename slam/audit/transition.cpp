@@ -43,6 +43,7 @@ SnapshotPtr rearranged(const Snapshot& snapshot, const std::vector<int>& places)
 }
 
 int sharedPrefix(const Snapshot& a, const Snapshot& b) {
+  if (a.ids == b.ids) return a.featureCount();
   return static_cast<int>(
       std::mismatch(a.ids.begin(), a.ids.end(), b.ids.begin(), b.ids.end()).first - a.ids.begin());
 }
@@ -113,16 +114,20 @@ Transition lineUp(const SnapshotPtr& before, const SnapshotPtr& after, const Exa
   }
   t.sigma.resize(t.size());
   t.scale.resize(t.size());
-  double smallest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < t.size(); ++i) {
-    const double variance = t.before->covariance(i, i);
-    t.sigma[i] = variance > 0.0 ? std::sqrt(variance) : 0.0;
-    t.scale[i] = variance > 1e-200 ? 1.0 / t.sigma[i] : 0.0;
-    if (t.scale[i] > 0.0) smallest = std::min(smallest, variance);
-  }
+  constexpr double kLeastSigma = 1e-100;
+  const double* variance = t.before->covariance.packed().data();
+  for (int i = 0; i < t.size(); variance += 2 + i++) t.sigma[i] = *variance;
+  t.sigma = t.sigma.array().max(0.0).sqrt();
+  t.scale = t.sigma.array().max(kLeastSigma).inverse();
   t.largest_scale = t.scale.maxCoeff();
+  if (t.largest_scale >= 1.0 / kLeastSigma) {
+    t.scale = (t.sigma.array() > kLeastSigma).select(t.scale, 0.0);
+    t.largest_scale = t.scale.maxCoeff();
+  }
   t.noise = exactness.covariance;
-  if (exactness.covariance_absolute > 0.0) t.noise += exactness.covariance_absolute / smallest;
+  if (exactness.covariance_absolute > 0.0) {
+    t.noise += exactness.covariance_absolute * t.largest_scale * t.largest_scale;
+  }
   double largest = t.before->pose.cwiseAbs().maxCoeff();
   for (const Eigen::Vector2d& f : t.before->features) {
     largest = std::max(largest, f.cwiseAbs().maxCoeff());
