@@ -95,15 +95,28 @@ std::vector<TagFaults::Stray> TagFaults::straysOf(std::span<const EyeCamera> eye
   return strays;
 }
 
+void TagFaults::age(std::span<const HeadSight> sights) {
+  std::set<int> seen;
+  for (const HeadSight& sight : sights) seen.insert(sight.tag);
+  for (auto& [key, votes] : votes_) {
+    // Which tag another stands in the place of says nothing of that one.
+    const bool of_both = key.kind == Kind::swapped;
+    if (!seen.contains(key.first) && !(of_both && seen.contains(key.second))) continue;
+    for (Vote& one : votes) ++one.age;
+    std::erase_if(votes, [](const Vote& one) { return one.age >= kWindow; });
+  }
+  std::erase_if(votes_, [](const auto& entry) { return entry.second.empty(); });
+}
+
 void TagFaults::vote(const Key& key, double amount) {
   auto& votes = votes_[key];
-  if (votes.empty() || votes.back().fit != fits_) votes.push_back({fits_, amount});
+  if (votes.empty() || votes.back().age > 0) votes.push_back({0, amount});
 }
 
 void TagFaults::add(std::span<const EyeCamera> eyes, const TagLayout& layout,
                     std::span<const HeadSight> sights, const HeadFit& fit) {
-  ++fits_;
   layout_ = layout;
+  age(sights);
   std::set<std::pair<std::size_t, int>> squares;  // camera, id
   std::set<int> doubled;
   for (std::size_t i = 0; i + 3 < sights.size(); i += 4) {
@@ -130,10 +143,6 @@ void TagFaults::add(std::span<const EyeCamera> eyes, const TagLayout& layout,
       vote({Kind::moved, id, -1}, stray.shift());
     }
   }
-  for (auto& [key, votes] : votes_) {
-    std::erase_if(votes, [&](const Vote& one) { return one.fit <= fits_ - kWindow; });
-  }
-  std::erase_if(votes_, [](const auto& entry) { return entry.second.empty(); });
 }
 
 std::string TagFaults::text(const Key& key, double amount, const TagLayout& layout) {

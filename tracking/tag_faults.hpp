@@ -12,7 +12,8 @@
 namespace slamscope::tracking {
 
 /// What is wrong with tags that don't fit the rest, told from where they are seen instead. What is
-/// found in at least three of the last ten fits is named.
+/// found in at least six of the last ten fits that saw the tag is named, and stays so while the tag
+/// is out of view.
 class TagFaults {
  public:
   /// One fit, of which at least two other tags were used.
@@ -31,7 +32,7 @@ class TagFaults {
     auto operator<=>(const Key&) const = default;
   };
   struct Vote {
-    int fit;
+    int age;        // fits since then that saw the tag
     double amount;  // m
   };
   struct Stray;
@@ -39,10 +40,10 @@ class TagFaults {
                                                    const TagLayout& layout,
                                                    std::span<const HeadSight> sights,
                                                    const HeadFit& fit);
+  void age(std::span<const HeadSight> sights);
   void vote(const Key& key, double amount);
   [[nodiscard]] static std::string text(const Key& key, double amount, const TagLayout& layout);
 
-  int fits_ = 0;
   TagLayout layout_;
   std::map<Key, std::vector<Vote>> votes_;
 };

@@ -34,6 +34,8 @@ MappedTag& tagOf(TagLayout& layout, int id) {
                        [id](const MappedTag& tag) { return tag.id == id; });
 }
 
+constexpr int kFramesToName = 10;
+
 /// Ids that the left eye sees at a frame, in random order.
 std::vector<int> seenAt(SeenRoom& room, int frame) {
   std::vector<int> ids;
@@ -41,11 +43,21 @@ std::vector<int> seenAt(SeenRoom& room, int frame) {
   return ids;
 }
 
+/// Those of `ids` that stay in view for all the frames in which they have to be named.
+std::vector<int> staying(SeenRoom& room, int frame, std::vector<int> ids) {
+  for (int k = 1; k < kFramesToName; ++k) {
+    const std::vector<int> seen = seenAt(room, frame + k);
+    std::erase_if(ids,
+                  [&](int id) { return std::find(seen.begin(), seen.end(), id) == seen.end(); });
+  }
+  return ids;
+}
+
 /// Ten frames with a layout that isn't the room's; counts what is said of `bad`: one of `sayings`.
 void judge(SeenRoom& room, const TagLayout& stated, int frame, int bad,
            const std::vector<std::string>& sayings, SpoiltLayouts& result) {
   HeadTracker tracker(room.rig, stated);
-  for (int k = 0; k < 10; ++k) {
+  for (int k = 0; k < kFramesToName; ++k) {
     tracker.add(room.pair(atFrame(frame + k)));
     const auto& rejected = tracker.last().rejected_ids;
     if (k == 0 && std::find(rejected.begin(), rejected.end(), bad) != rejected.end()) {
@@ -111,9 +123,10 @@ SpoiltLayouts spoiltLayouts(int places) {
   for (int i = 0; i < places; ++i) {
     progress.done();
     const int frame = 7 * i;
-    const auto ids = seenAt(room, frame);
-    if (ids.size() < 4) continue;
-    const int a = ids[0], b = ids[1];
+    const std::vector<int> seen = seenAt(room, frame);
+    const std::vector<int> ids = staying(room, frame, seen);
+    if (seen.size() < 4 || ids.empty()) continue;
+    const int a = ids[0], b = seen[0] == a ? seen[1] : seen[0];
     const std::string tag = "tag " + std::to_string(a);
     TagLayout moved = room.truth;
     const Isometry3d shift(Eigen::Translation3d(i % 2 == 0 ? 0.01 : 0, i % 2 == 0 ? 0 : 0.01, 0));

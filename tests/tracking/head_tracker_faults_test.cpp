@@ -84,6 +84,34 @@ TEST(HeadTrackerFaults, NamesTagsThatAreNotWhereTheLayoutHasThem) {
   EXPECT_TRUE(tellOf(room, room.truth, a).problems.empty());
 }
 
+TEST(HeadTrackerFaults, RememberAMovedTagOutOfViewAndForgetOneThatWasPutBack) {
+  SeenRoom room;
+  room.head = standingHead();
+  const int a = inView(room)[0];
+  const TagLayout stated = room.truth;
+  HeadTracker tracker(room.rig, stated);
+  tagOf(room.truth, a).T_world_tag.translation().x() += 0.01;
+  int frame = 0;
+  const auto see = [&](int frames, bool in_view) {
+    for (int k = 0; k < frames; ++k) {
+      std::vector<HeadPicture> pair = room.pair(atFrame(frame++));
+      for (HeadPicture& picture : pair) {
+        std::erase_if(picture.tags, [&](const auto& tag) { return !in_view && tag.id == a; });
+      }
+      tracker.add(pair);
+    }
+  };
+  see(7, true);
+  ASSERT_EQ(tracker.problems().size(), 1U);
+  see(20, false);
+  EXPECT_EQ(tracker.problems().size(), 1U);
+  room.truth = stated;
+  see(4, true);
+  EXPECT_EQ(tracker.problems().size(), 1U);
+  see(1, true);  // five of ten are well now
+  EXPECT_TRUE(tracker.problems().empty());
+}
+
 TEST(HeadTrackerFaults, NamesATagThatIsSeenTwice) {
   SeenRoom room;
   room.head = standingHead();
