@@ -135,7 +135,8 @@ void TagFaults::add(std::span<const EyeCamera> eyes, const TagLayout& layout,
     });
     if (back != strays.end()) {
       vote({Kind::swapped, std::min(id, place->id), std::max(id, place->id)}, 0);
-    } else if (place != layout.tags.end()) {
+    }
+    if (place != layout.tags.end()) {  // said where the other one isn't seen often enough
       vote({Kind::in_place_of, id, place->id}, 0);
     } else if (const auto ratio = stray.sizeRatio()) {
       vote({Kind::size, id, -1}, *ratio * stray.tag->size_m);
