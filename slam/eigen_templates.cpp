@@ -2,3 +2,4 @@
 #include "slam/eigen_templates.hpp"
 
 SLAMSCOPE_EIGEN_TEMPLATES();
+SLAMSCOPE_EIGEN_KERNELS();
