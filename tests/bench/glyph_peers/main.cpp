@@ -170,6 +170,10 @@ void printBlock(const Measurement& measurement, std::size_t eyes, bool changing)
 int main(int argc, char** argv) {
   using namespace slamscope;
   using namespace slamscope::engine;
+  if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
+    std::puts("usage: slamscope_glyph_peers [PREFIX]    each last picture to PREFIX-….ppm");
+    return 2;
+  }
   apps::keepFreedMemory();
   const Measurement measurement(argc > 1 ? argv[1] : "");
   std::printf(
