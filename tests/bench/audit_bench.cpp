@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the audit costs beside the filter that it watches, per update, at level L2.
+// What the audit costs beside the filter that it watches, per update. Its records hold the
+// innovations too (level L3).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -19,7 +19,8 @@ struct LoneTags {
 };
 [[nodiscard]] LoneTags loneTags(int trials);
 
-/// T11: layouts with one tag moved by 1 cm, two swapped, one of another size; a tag seen twice.
+/// T11: layouts with one tag moved by 1 cm, two swapped, one of another size, and
+/// ten frames through which that tag stays in view.
 struct SpoiltLayouts {
   int trials = 0, rejected_at_once = 0, named = 0, others_named = 0;
 };
