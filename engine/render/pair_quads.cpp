@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kRun = 64;  // pairs a lane, as in pairs_list.comp and pairs_place.comp
 constexpr std::uint32_t kLanes = 64;
 
-enum Part : std::uint32_t { kInside = 1, kEdges = 2 };  // as in ellipsoids.frag
+enum Part : std::uint32_t { kWhole = 0, kInside = 1, kEdges = 2 };  // as in ellipsoids.frag
 
 std::vector<vk::DescriptorSetLayout> pairQuadSets(const PassSetup& setup, const PairData& data) {
   return {setup.frame_layout, data.set().layout()};
@@ -25,7 +25,7 @@ gpu::PipelineInfo pairQuadInfo(const PassSetup& setup, const PairData& data, Par
           .sets = pairQuadSets(setup, data),
           .view_mask = setup.view_mask,
           .depth_test = true,
-          .depth_write = part == kInside};
+          .depth_write = part != kEdges};
 }
 
 std::uint32_t runsOf(const PairData& data) {
@@ -43,10 +43,12 @@ gpu::PipelineInfo depthOnly(gpu::PipelineInfo info) {
 PairQuads::PairQuads(const PassSetup& setup, const PairData& data)
     : list_(setup.core, 0, vk::BufferUsageFlagBits::eStorageBuffer, gpu::MemoryUse::kDevice),
       runs_(setup.core, 0, vk::BufferUsageFlagBits::eStorageBuffer, gpu::MemoryUse::kDevice),
+      few_(setup.core, shaderCode("pairs_few_comp"), pairQuadSets(setup, data)),
       count_(setup.core, shaderCode("pairs_list_comp"), pairQuadSets(setup, data), {VK_FALSE}),
       place_(setup.core, shaderCode("pairs_place_comp"), pairQuadSets(setup, data)),
       write_(setup.core, shaderCode("pairs_list_comp"), pairQuadSets(setup, data), {VK_TRUE}),
       depth_(setup.core, depthOnly(pairQuadInfo(setup, data, kInside))),
+      whole_(setup.core, pairQuadInfo(setup, data, kWhole), kWhole, Picked::Kind::pair),
       inside_(setup.core, pairQuadInfo(setup, data, kInside), kInside, Picked::Kind::pair),
       edges_(setup.core, pairQuadInfo(setup, data, kEdges), kEdges, Picked::Kind::pair) {}
 
@@ -60,6 +62,12 @@ void PairQuads::update(PairData& data) {
 void PairQuads::recordList(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
                            const PairData& data) const {
   const std::array sets = {frame_set, data.set().handle()};
+  if (data.pairCount() < kFewPairs) {
+    few_.bind(commands, sets);
+    commands.dispatch(1, 1, 1);
+    barrier(commands, gpu::computed(), gpu::readByAll());
+    return;
+  }
   const std::uint32_t groups = (runsOf(data) + kLanes - 1) / kLanes;
   count_.bind(commands, sets);
   commands.dispatch(groups, 1, 1);
@@ -79,8 +87,12 @@ void PairQuads::record(const FrameContext& context, const PairData& data) const 
   };
   // Translucent ones fade as one layer: what is nearest must be known before anything is blended.
   if (data.data().colour[3] < 1.0F) draw(depth_);
-  draw(inside_[context.look]);
-  draw(edges_[context.look]);
+  if (data.pairCount() < kFewPairs) {
+    draw(whole_[context.look]);
+  } else {
+    draw(inside_[context.look]);
+    draw(edges_[context.look]);
+  }
 }
 
 }  // namespace slamscope::engine

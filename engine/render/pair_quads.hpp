@@ -7,10 +7,12 @@
 
 namespace slamscope::engine {
 
-/// Pairs as one ray-cast quad each: the device lists the chosen ones that are in the picture, in
-/// order, and draws as many as it found. First the pixels that an ellipsoid covers whole, which
-/// hide by depth, then the edges over them: so the order of drawing shows at no pixel but those in
-/// which several edges meet.
+/// Pairs as one ray-cast quad each: the device lists the chosen ones that are in the picture, and
+/// draws as many as it found. A few are sorted, the farthest from the first eye first, and drawn at
+/// once: a pixel in which an edge runs through another ellipsoid may show the order. Many are drawn
+/// in the order of their numbers, first the pixels that an ellipsoid covers whole, which hide by
+/// depth, then the edges over them: then the order shows at no pixel but those in which several
+/// edges meet, for half as much time again.
 class PairQuads {
  public:
   PairQuads(const PassSetup& setup, const PairData& data);
@@ -24,9 +26,9 @@ class PairQuads {
 
  private:
   gpu::Buffer list_, runs_;
-  gpu::ComputePipeline count_, place_, write_;
+  gpu::ComputePipeline few_, count_, place_, write_;
   gpu::Pipeline depth_;
-  Looks inside_, edges_;
+  Looks whole_, inside_, edges_;
 };
 
 }  // namespace slamscope::engine

@@ -25,6 +25,7 @@ namespace {
 #include "lens_vert.h"
 #include "lines_frag.h"
 #include "lines_vert.h"
+#include "pairs_few_comp.h"
 #include "pairs_list_comp.h"
 #include "pairs_place_comp.h"
 #include "pairs_rank_comp.h"
@@ -52,6 +53,7 @@ const std::array kShaders = {ShaderCode{"arrows_frag", arrows_frag},
                              ShaderCode{"lens_vert", lens_vert},
                              ShaderCode{"lines_frag", lines_frag},
                              ShaderCode{"lines_vert", lines_vert},
+                             ShaderCode{"pairs_few_comp", pairs_few_comp},
                              ShaderCode{"pairs_list_comp", pairs_list_comp},
                              ShaderCode{"pairs_place_comp", pairs_place_comp},
                              ShaderCode{"pairs_rank_comp", pairs_rank_comp},

@@ -46,15 +46,14 @@ bool coversPixel(Conic c, ConicPoint at) {
   return at.f + 0.25 * (c.q.x + c.q.z) + across >= 0.0;
 }
 
-// False where none of the pixel is inside. True may be wrong in corners: along the direction in
-// which the conic's value rises fastest, no farther than the pixel reaches, is all that is tried.
+// False where none of the pixel is inside. True may be wrong in corners and beside thin ones: the
+// conic's value lies below its tangent plane, and along the direction in which it rises fastest below
+// the top of a parabola.
 bool touchesPixel(Conic c, ConicPoint at) {
-  const float size = max(length(at.gradient), 1e-30);
-  const vec2 n = at.gradient / size;
-  const float curvature = c.q.x * n.x * n.x + 2.0 * c.q.y * n.x * n.y + c.q.z * n.y * n.y;
-  float reach = 0.5 * (abs(n.x) + abs(n.y));
-  reach = curvature < 0.0 ? min(reach, -size / curvature) : reach;
-  return at.f + (2.0 * size + curvature * reach) * reach >= 0.0;
+  const vec2 g = at.gradient;
+  const float gg = dot(g, g);
+  const float curvature = c.q.x * g.x * g.x + 2.0 * c.q.y * g.x * g.y + c.q.z * g.y * g.y;
+  return at.f + abs(g.x) + abs(g.y) >= 0.0 && (curvature >= 0.0 || at.f * curvature <= gg * gg);
 }
 
 // Of the inside of a conic. An ellipse is cut into four strips across the direction that its edge

@@ -131,8 +131,9 @@ TEST_P(PairPicture, BothEyesAreDrawnAndEachAsIfAlone) {
   const Scene scene = sceneOf(someMap(20, 0.04));
   const auto both = draw(std::array{left, right}, scene, options(true));
   EXPECT_TRUE(sameBytes(both[0], draw(left, scene, options(true))));
-  const Difference off = difference(both[1], draw(right, scene, options(true)));
-  EXPECT_LE(off.most, 2);
+  // The order of quads is the first eye's, which may show where an edge runs through another's
+  // inside.
+  EXPECT_LE(difference(both[1], draw(right, scene, options(true)), 2).pixels, 5);
   EXPECT_FALSE(sameBytes(both[0], both[1]));
 }
 

@@ -102,10 +102,10 @@ inline Moments momentsOf(const Image& image) {
 /// Largest difference of a byte, and how many pixels differ at all.
 struct Difference {
   int most = 0;
-  int pixels = 0;
+  int pixels = 0;  // that differ by more than was tolerated
 };
 
-inline Difference difference(const Image& a, const Image& b) {
+inline Difference difference(const Image& a, const Image& b, int tolerated = 0) {
   Difference d;
   for (int v = 0; v < a.height; ++v) {
     for (int u = 0; u < a.width; ++u) {
@@ -114,7 +114,7 @@ inline Difference difference(const Image& a, const Image& b) {
         most = std::max(most, std::abs(channel(a, u, v, i) - channel(b, u, v, i)));
       }
       d.most = std::max(d.most, most);
-      d.pixels += most > 0 ? 1 : 0;
+      d.pixels += most > tolerated ? 1 : 0;
     }
   }
   return d;
