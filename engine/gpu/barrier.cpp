@@ -16,6 +16,9 @@ Use copyTarget() {
 Use copySource() {
   return {Stage::eTransfer, Access::eTransferRead, Layout::eTransferSrcOptimal};
 }
+Use readByHost() {
+  return {Stage::eHost, Access::eHostRead, Layout::eGeneral};
+}
 Use sampledInFragment() {
   return {Stage::eFragmentShader, Access::eShaderSampledRead, Layout::eShaderReadOnlyOptimal};
 }

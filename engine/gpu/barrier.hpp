@@ -16,6 +16,7 @@ struct Use {
 [[nodiscard]] Use unused();
 [[nodiscard]] Use copyTarget();
 [[nodiscard]] Use copySource();
+[[nodiscard]] Use readByHost();
 [[nodiscard]] Use sampledInFragment();
 [[nodiscard]] Use drawnInto();
 [[nodiscard]] Use depthTested();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "engine/gpu/memory.hpp"
 
 namespace slamscope::engine::gpu {
@@ -10,6 +13,7 @@ struct ImageInfo {
   vk::Extent2D extent = {};
   std::uint32_t layers = 1;
   vk::ImageUsageFlags usage = {};
+  bool readable = false;  ///< by the host where it lies, if that costs the device nothing
 };
 
 /// 2D image on the device, one layer a view; `view()` is always of an array.
@@ -24,11 +28,19 @@ class DeviceImage {
   [[nodiscard]] vk::Format format() const { return info_.format; }
   [[nodiscard]] vk::ImageAspectFlags aspect() const;
 
+  /// Its memory is seen by the host: what was asked for, on a device that is a processor.
+  [[nodiscard]] bool readable() const { return mapped_ != nullptr; }
+  /// A row of a layer of a readable one, four bytes a texel; valid once the device is done and the
+  /// image has come to readByHost().
+  [[nodiscard]] std::span<const std::uint8_t> row(std::uint32_t layer, std::uint32_t row) const;
+
  private:
   ImageInfo info_;
   Memory memory_;
   vk::raii::Image image_ = nullptr;
   vk::raii::ImageView view_ = nullptr;
+  const std::byte* mapped_ = nullptr;
+  vk::SubresourceLayout layout_;  // of the first layer, where mapped
 };
 
 /// Sampler of a picture: bilinear, black outside of it.

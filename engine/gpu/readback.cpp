@@ -1,26 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/readback.hpp"
 
+#include <algorithm>
+
 namespace slamscope::engine::gpu {
 
-Readback::Readback(const Core& core, vk::Extent2D extent, std::uint32_t layers)
-    : extent_(extent),
-      layers_(layers),
-      buffer_(core, std::size_t{extent.width} * extent.height * layers * 4,
-              vk::BufferUsageFlagBits::eTransferDst, MemoryUse::kReadback) {}
+namespace {
 
-void Readback::record(const vk::raii::CommandBuffer& commands, const DeviceImage& image) const {
+std::size_t layerBytes(const DeviceImage& image) {
+  return std::size_t{image.extent().width} * image.extent().height * 4;
+}
+
+}  // namespace
+
+Readback::Readback(const Core& core)
+    : buffer_(core, 0, vk::BufferUsageFlagBits::eTransferDst, MemoryUse::kReadback) {}
+
+void Readback::record(const vk::raii::CommandBuffer& commands, const DeviceImage& image) {
+  image_ = &image;
+  if (image.readable()) {
+    barrier(commands, image, copySource(), readByHost());
+    return;
+  }
+  buffer_.reserve(layerBytes(image) * image.layers());
   commands.copyImageToBuffer(
       image.handle(), vk::ImageLayout::eTransferSrcOptimal, buffer_.handle(),
-      vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, layers_},
-                          .imageExtent = {extent_.width, extent_.height, 1}});
+      vk::BufferImageCopy{
+          .imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, image.layers()},
+          .imageExtent = {image.extent().width, image.extent().height, 1}});
   barrierToHost(commands, vk::PipelineStageFlagBits2::eTransfer,
                 vk::AccessFlagBits2::eTransferWrite);
 }
 
-std::span<const std::uint8_t> Readback::layer(std::uint32_t index) const {
-  const std::size_t bytes = std::size_t{extent_.width} * extent_.height * 4;
-  return buffer_.as<const std::uint8_t>((index + 1) * bytes).subspan(index * bytes);
+void Readback::copyLayer(std::uint32_t index, std::vector<std::uint8_t>& rgba) const {
+  const std::size_t bytes = layerBytes(*image_);
+  rgba.resize(bytes);
+  if (!image_->readable()) {
+    const auto layers = buffer_.as<const std::uint8_t>(bytes * image_->layers());
+    std::ranges::copy(layers.subspan(index * bytes, bytes), rgba.begin());
+    return;
+  }
+  auto out = rgba.begin();
+  for (std::uint32_t v = 0; v < image_->extent().height; ++v) {
+    out = std::ranges::copy(image_->row(index, v), out).out;
+  }
 }
 
 }  // namespace slamscope::engine::gpu

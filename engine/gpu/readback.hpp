@@ -2,27 +2,28 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <vector>
 
 #include "engine/gpu/barrier.hpp"
 #include "engine/gpu/buffer.hpp"
 
 namespace slamscope::engine::gpu {
 
-/// Brings the layers of an image with four bytes a texel to the host.
+/// Brings the layers of an image with four bytes a texel to the host: by way of a buffer, or from
+/// where they lie where the image is readable().
 class Readback {
  public:
-  Readback(const Core& core, vk::Extent2D extent, std::uint32_t layers);
+  explicit Readback(const Core& core);
 
-  /// `image` is in the layout of copySource().
-  void record(const vk::raii::CommandBuffer& commands, const DeviceImage& image) const;
-  /// Rows of a layer, valid once the fence of what was recorded is signalled and until the next.
-  [[nodiscard]] std::span<const std::uint8_t> layer(std::uint32_t index) const;
+  /// `image` is in the layout of copySource(), and the device is not working. It must live until
+  /// layers were copied.
+  void record(const vk::raii::CommandBuffer& commands, const DeviceImage& image);
+  /// Rows of a layer, once the fence of what was recorded last is signalled.
+  void copyLayer(std::uint32_t index, std::vector<std::uint8_t>& rgba) const;
 
  private:
-  vk::Extent2D extent_;
-  std::uint32_t layers_;
   Buffer buffer_;
+  const DeviceImage* image_ = nullptr;
 };
 
 }  // namespace slamscope::engine::gpu

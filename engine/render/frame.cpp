@@ -47,7 +47,8 @@ struct Frame::Parts {
                 .layers = size.views,
                 .usage = vk::ImageUsageFlagBits::eColorAttachment |
                          vk::ImageUsageFlagBits::eTransferSrc |
-                         vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eSampled}),
+                         vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eSampled,
+                .readable = true}),
         depth(core, {.format = vk::Format::eD32Sfloat,
                      .extent = size.extent,
                      .layers = size.views,

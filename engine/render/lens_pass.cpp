@@ -33,7 +33,8 @@ LensPass::LensPass(const gpu::Core& core, const gpu::DeviceImage& drawn)
                     .extent = drawn.extent(),
                     .layers = drawn.layers(),
                     .usage = vk::ImageUsageFlagBits::eColorAttachment |
-                             vk::ImageUsageFlagBits::eTransferSrc}),
+                             vk::ImageUsageFlagBits::eTransferSrc,
+                    .readable = true}),
       lenses_(core, sizeof(interop::LensesData), vk::BufferUsageFlagBits::eUniformBuffer,
               gpu::MemoryUse::kUpload),
       set_(core, {{.binding = kDrawn,

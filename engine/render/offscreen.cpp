@@ -11,9 +11,7 @@ namespace slamscope::engine {
 
 struct Offscreen::Parts {
   Parts(std::shared_ptr<Gpu> the_gpu, int width, int height, int views)
-      : gpu(std::move(the_gpu)),
-        frame(gpu->core(), width, height, views),
-        readback(gpu->core(), frame.colour().extent(), frame.colour().layers()) {}
+      : gpu(std::move(the_gpu)), frame(gpu->core(), width, height, views), readback(gpu->core()) {}
 
   std::shared_ptr<Gpu> gpu;
   Frame frame;
@@ -48,10 +46,9 @@ void Offscreen::draw(std::span<const View> views, const Scene& scene, const Rend
   const vk::Extent2D extent = parts_->frame.colour().extent();
   pictures.resize(views.size());
   for (std::uint32_t i = 0; i < pictures.size(); ++i) {
-    const auto texels = parts_->readback.layer(i);
     pictures[i].width = static_cast<int>(extent.width);
     pictures[i].height = static_cast<int>(extent.height);
-    pictures[i].rgba.assign(texels.begin(), texels.end());
+    parts_->readback.copyLayer(i, pictures[i].rgba);
   }
   parts_->stats = parts_->frame.stats();
   parts_->drawn = true;
