@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <tuple>
 
 #include "engine/gpu/barrier.hpp"
 #include "engine/render/covariance_room.hpp"
@@ -74,37 +76,30 @@ std::size_t numberOf(std::uint32_t a, std::uint32_t b) {
   return std::size_t{j} * (j - 1) / 2 + i;
 }
 
-/// The bits of two 16-bit numbers in turns.
-std::uint32_t interleaved(std::uint32_t x, std::uint32_t y) {
-  const auto spread = [](std::uint32_t v) {
-    v = (v | v << 8U) & 0x00FF00FFU;
-    v = (v | v << 4U) & 0x0F0F0F0FU;
-    v = (v | v << 2U) & 0x33333333U;
-    return (v | v << 1U) & 0x55555555U;
-  };
-  return spread(x) | spread(y) << 1U;
-}
-
-/// Along a Z-shaped curve through the plane: what is near in this order is near in the picture, so
-/// that pairs that are drawn together are drawn into the same part of memory.
-std::vector<std::uint32_t> alongCurve(std::span<const Eigen::Vector2f> means) {
+/// In bands across the way to the eye (seen from `eye`, in the points' own coordinates), the
+/// nearest band first. Of pairs taken in this order most of the later ones are hidden, which costs
+/// little to find out; and what is near in it is near in the picture, and so in memory.
+std::vector<std::uint32_t> nearestFirst(std::span<const Eigen::Vector2f> means,
+                                        const Eigen::Vector2f& eye) {
+  constexpr float kBands = 32.0F;
   Eigen::AlignedBox2f box;
   for (const Eigen::Vector2f& mean : means) {
     if (mean.allFinite()) box.extend(mean);
   }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed;
+  if (box.isEmpty()) box.extend(Eigen::Vector2f::Zero().eval());
+  const Eigen::Vector2f centre = box.center();
+  const float reach = std::max(0.5F * box.diagonal().norm(), 1e-30F);
+  const Eigen::Vector2f to_eye = (eye - centre).stableNormalized();
+  std::vector<std::tuple<float, float, std::uint32_t>> keyed;
   for (std::uint32_t i = 0; i < means.size(); ++i) {
-    std::uint32_t key = 0;
-    if (means[i].allFinite()) {
-      const Eigen::Array2f size = box.sizes().array().max(1e-30F);
-      const Eigen::Array2f cell = 65535.0F * (means[i] - box.min()).array() / size;
-      key = interleaved(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y()));
-    }
-    keyed.emplace_back(key, i);
+    Eigen::Vector2f p = Eigen::Vector2f::Zero();
+    if (means[i].allFinite()) p = (means[i] - centre) / reach;
+    const float band = std::floor(-0.5F * kBands * p.dot(to_eye));
+    keyed.emplace_back(band, to_eye.y() * p.x() - to_eye.x() * p.y(), i);
   }
   std::ranges::sort(keyed);
   std::vector<std::uint32_t> order;
-  for (const auto& [key, i] : keyed) order.push_back(i);
+  for (const auto& [band, across, i] : keyed) order.push_back(i);
   return order;
 }
 
@@ -189,14 +184,16 @@ const interop::PairsCounts& PairData::counts() const {
   return counts_read_.as<interop::PairsCounts>(1)[0];
 }
 
-void PairData::sendPoints(const PlanarPoints& points) {
+void PairData::sendPoints(const PairGlyphs& glyphs, const View& first_eye) {
+  const PlanarPoints& points = *glyphs.points;
   const auto blocks = points.blocks();
   if (points_.reserve(points.means().size() * kTexelsOfAPoint * sizeof(Eigen::Vector4f))) {
     bind(kPoints, points_);
   }
   if (blocks_.reserve(blocks.size_bytes())) bind(kBlocks, blocks_);
   std::memcpy(blocks_.mapped().data(), blocks.data(), blocks.size_bytes());
-  order_ = alongCurve(points.means());
+  const Eigen::Vector2d eye = first_eye.T_eye_scene.inverse().translation().head<2>();
+  order_ = nearestFirst(points.means(), (eye / glyphs.scale - points.origin()).cast<float>());
   uploaded_bytes_ = points.bytes();
 }
 
@@ -258,7 +255,7 @@ void PairData::update(const PairGlyphs& glyphs, const ViewSet& views) {
   changed_ = others || others_seen || glyphs.choice != choice_;
   if (!changed_) return;
   choice_ = glyphs.choice;
-  if (others) sendPoints(*glyphs.points);
+  if (others) sendPoints(glyphs, views.views().front());
   sent_ = glyphs.points;
   sendTable(*sent_);
   sendLeftOut();

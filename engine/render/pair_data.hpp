@@ -74,7 +74,7 @@ class PairData {
   void bind(Binding binding, const gpu::Buffer& buffer);
 
  private:
-  void sendPoints(const PlanarPoints& points);
+  void sendPoints(const PairGlyphs& glyphs, const View& first_eye);
   void sendTable(const PlanarPoints& points);
   void sendLeftOut();
   /// True where another point came into view or left it.
