@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "slam/angle.hpp"
-#include "slam/ekf_right_solve.hpp"
+#include "slam/ekf_cholesky.hpp"
 
 namespace slamscope::slam {
 namespace {
@@ -64,10 +64,9 @@ void solveCorrection(const EkfState& state, Correction& c) {
     setPHt(state, o.H, c.PHt.middleCols<2>(2 * k));
   }
   setInnovationCovariance(c);  // (8)
-  c.S_factor.compute(c.S);
-  c.applied = c.S.allFinite() && c.innovation.allFinite() && c.S_factor.info() == Eigen::Success;
+  c.applied = c.innovation.allFinite() && choleskyOf(c.S, c.L);
   if (!c.applied) return;
-  solveFromTheRight(c.S_factor.matrixLLT(), c.PHt, c.Y);  // (11)
+  solveFromTheRight(c.L, c.PHt, c.Y);  // (11)
 }
 
 }  // namespace
@@ -203,7 +202,7 @@ void EkfEquations::updateMean(EkfState& state, const Correction& correction) {
   if (whitened_.size() < rows) whitened_.resize(rows);
   auto whitened = whitened_.head(rows);
   whitened = correction.innovation;
-  correction.S_factor.matrixL().solveInPlace(whitened);
+  correction.L.triangularView<Eigen::Lower>().solveInPlace(whitened);
   state.x.noalias() += correction.Y * whitened;
   state.x[2] = wrapAngle(state.x[2]);
 }

@@ -57,10 +57,10 @@ struct LinearisedObservation {
 /// One Kalman update of m observations at once (m = 1 where updates are sequential).
 struct Correction {
   std::vector<LinearisedObservation> observations;
-  Eigen::VectorXd innovation;            ///< 2m
-  Eigen::MatrixXd S;                     ///< 2m×2m, whole
-  Eigen::LLT<Eigen::MatrixXd> S_factor;  ///< S = L Lᵀ
-  Eigen::MatrixXd PHt;                   ///< P Hᵀ, N×2m
+  Eigen::VectorXd innovation;  ///< 2m
+  Eigen::MatrixXd S;           ///< 2m×2m, whole
+  Eigen::MatrixXd L;           ///< S = L Lᵀ; the lower triangle is meant
+  Eigen::MatrixXd PHt;         ///< P Hᵀ, N×2m
   /// P Hᵀ L⁻ᵀ, N×2m: the gain of (11) is W = Y L⁻¹ and W S Wᵀ = Y Yᵀ.
   Eigen::MatrixXd Y;
   /// False where S is not positive definite or not finite: the state was left alone.

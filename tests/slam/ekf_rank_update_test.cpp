@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "slam/ekf_right_solve.hpp"
+#include "slam/ekf_cholesky.hpp"
 #include "slam/simulation_random.hpp"
 
 namespace slamscope::slam {
@@ -63,9 +63,44 @@ TEST(RankUpdate, TwoThreadsGiveTheSameBits) {
   EXPECT_FALSE(one == P);
 }
 
+TEST(Cholesky, FactorTimesItsTransposeIsTheMatrix) {
+  RandomSource random(9);
+  for (const int m : {2, 6, 20, 64, 70}) {
+    Eigen::MatrixXd root(m, m);
+    for (double& value : root.reshaped()) value = random.normal();
+    const Eigen::MatrixXd S = root * root.transpose() + Eigen::MatrixXd::Identity(m, m);
+    Eigen::MatrixXd L;
+    ASSERT_TRUE(choleskyOf(S, L)) << m;
+    const Eigen::MatrixXd lower = L.triangularView<Eigen::Lower>();
+    EXPECT_LT((lower * lower.transpose() - S).norm(), 1e-14 * m * S.norm()) << m;
+    EXPECT_GT((L * L.transpose() - 1.001 * S).norm(), 1e-4 * S.norm()) << "must fail";
+  }
+}
+
+TEST(Cholesky, RefusesWhatIsNotPositiveDefiniteOrNotFinite) {
+  Eigen::MatrixXd L;
+  for (const int m : {2, 20, 70}) {
+    const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(m, m);
+    EXPECT_TRUE(choleskyOf(1e-300 * one, L));
+    EXPECT_FALSE(choleskyOf(-one, L));
+    EXPECT_FALSE(choleskyOf(Eigen::MatrixXd::Zero(m, m), L));
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      for (const int row : {0, m - 1}) {
+        Eigen::MatrixXd S = one;
+        S(row, row) = bad;
+        EXPECT_FALSE(choleskyOf(S, L)) << m << ' ' << row << ' ' << bad;
+        S = one;
+        S(m - 1, 0) = S(0, m - 1) = bad;
+        EXPECT_FALSE(choleskyOf(S, L)) << m << ' ' << bad;
+      }
+    }
+  }
+}
+
 TEST(RightSolve, UndoesTheProductWithLTransposed) {
   RandomSource random(8);
-  for (const int size : {3, 8, 33, 203}) {
+  for (const int size : {1, 3, 8, 33, 36, 37, 203}) {
     for (const int m : {2, 20, 130}) {
       Eigen::MatrixXd L = Eigen::MatrixXd::Identity(m, m) * 20.0;
       Eigen::MatrixXd Y(size, m);

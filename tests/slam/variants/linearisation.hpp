@@ -28,7 +28,7 @@ class IteratedFilter final : public EkfEquations {
       }
       c = correct(state, std::move(linearised));
       if (!c.applied) return c;
-      at.x = prior + c.Y * c.S_factor.matrixL().solve(c.innovation);
+      at.x = prior + c.Y * c.L.triangularView<Eigen::Lower>().solve(c.innovation);
       at.x[2] = wrapAngle(at.x[2]);
     }
     state.x = at.x;

@@ -52,9 +52,9 @@ class UnscentedFilter final : public EkfEquations {
     z.colwise() += c.innovation;
     const Eigen::MatrixXd spread = points.colwise() - state.x;
     c.S = covariance(z, z) + denseR(c);
-    c.S_factor.compute(c.S);
+    c.L = c.S.llt().matrixL();
     c.Y = covariance(spread, z);
-    c.S_factor.matrixU().solveInPlace<Eigen::OnTheRight>(c.Y);
+    c.L.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(c.Y);
     updateMean(state, c);
     updateCovariance(state, c);
     return c;
