@@ -45,7 +45,9 @@ bool factorise(double* A, std::ptrdiff_t m, std::ptrdiff_t stride) {
   return true;
 }
 
-constexpr int kMostVectors = 9;  // of four rows: sums of two panels' worth wait for one another
+/// Of four rows a panel: enough sums to keep the multipliers busy, as each waits for itself; and
+/// the 33 rows of fifteen features are one panel.
+constexpr int kMostVectors = 9;
 constexpr std::ptrdiff_t kPanelCols = 128;  // wider ones go Eigen's way
 
 /// Forward substitution of a panel's rows, four to a vector, column by column:
@@ -69,28 +71,18 @@ template <int kVectors>
   }
 }
 
+template <int kVectors>
+[[gnu::always_inline]] inline void solveAtMost(const double* L, std::ptrdiff_t m, Vector4* panel,
+                                               std::ptrdiff_t vectors) {
+  if constexpr (kVectors > 1) {
+    if (vectors < kVectors) return solveAtMost<kVectors - 1>(L, m, panel, vectors);
+  }
+  solveVectors<kVectors>(L, m, panel);
+}
+
 SLAMSCOPE_FMA_CLONES
 void solvePanel(const double* L, std::ptrdiff_t m, Vector4* panel, std::ptrdiff_t vectors) {
-  switch (vectors) {
-    case 1:
-      return solveVectors<1>(L, m, panel);
-    case 2:
-      return solveVectors<2>(L, m, panel);
-    case 3:
-      return solveVectors<3>(L, m, panel);
-    case 4:
-      return solveVectors<4>(L, m, panel);
-    case 5:
-      return solveVectors<5>(L, m, panel);
-    case 6:
-      return solveVectors<6>(L, m, panel);
-    case 7:
-      return solveVectors<7>(L, m, panel);
-    case 8:
-      return solveVectors<8>(L, m, panel);
-    default:
-      return solveVectors<9>(L, m, panel);
-  }
+  solveAtMost<kMostVectors>(L, m, panel, vectors);
 }
 
 /// Rows `row` … `row` + `rows` − 1.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "slam/faults_single_precision.hpp"
 
+#include <Eigen/Cholesky>
+
 namespace slamscope::slam {
 
 void SinglePrecision::predictCovariance(EkfState& state, const Eigen::Matrix3d& F,

@@ -2,6 +2,8 @@
 // The lawful variants are what they say: correct filters that go other ways.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "slam/faults.hpp"
 #include "slam/simulation.hpp"
 #include "tests/slam/variants/variants.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Cholesky>
+
 #include "slam/angle.hpp"
 #include "tests/slam/variants/square_root.hpp"
 
