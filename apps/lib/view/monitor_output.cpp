@@ -28,7 +28,11 @@ void Monitor::State::hand() {
   if (!options.report.empty()) report.add(frameReport());
   const bool something = ellipsoidCount(picture.scene, offscreen.lastStats().pairs) > 0 ||
                          (choices.mode == slam::PairMode::alarms && shown());
-  if (!options.compare.empty() && !start_picture && something) start_picture = pixels.front();
+  if (!options.compare.empty() && !start_picture && something) {
+    compose();  // once more, now that it is known how many pairs were drawn
+    offscreen.draw({&picture.view, 1}, picture.scene, picture.render, pixels);
+    start_picture = pixels.front();
+  }
   if (shown() && (options.compare.empty() || start_picture)) skipToTheEnd();
 }
 

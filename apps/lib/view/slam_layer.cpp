@@ -140,9 +140,10 @@ std::span<const slam::ClusterPair> SlamLayer::clusterPairs() {
 std::string SlamLayer::pairsText(const engine::Scene& scene) const {
   const std::size_t own = ellipsoidCount(scene);
   if (!scene.pairs) return thousands(own) + " ellipsoids";
-  if (drawn_.all == 0) return thousands(scene.pairs->points->pairCount()) + " pairs";
-  std::string text =
-      thousands(drawn_.drawn + own) + " of " + thousands(drawn_.all) + " pairs drawn";
+  // How many of them the device tells after it has drawn them; until then it knows of others.
+  const std::size_t all = scene.pairs->points->pairCount();
+  if (drawn_.all != all) return thousands(all) + " pairs";
+  std::string text = thousands(drawn_.drawn + own) + " of " + thousands(all) + " pairs drawn";
   if (drawn_.greatest_growth > 0.0F) {
     char growth[48];
     std::snprintf(growth, sizeof growth, ", greatest growth × %.3g", drawn_.greatest_growth);
