@@ -18,6 +18,9 @@ layout(local_size_x = 64) in;
 // first. Two entries a pixel, views one after another.
 layout(set = 1, binding = 8, scalar) buffer Visibility { uint64_t nearest[]; };
 layout(set = 1, binding = 9) uniform usamplerBuffer nearest_words;  // the same memory
+// Of pairs, one a work group, the nearest first: 64 points i, a lane each, by as many rows j as make
+// 64 rectangles one above another. First i, first j above it.
+layout(set = 1, binding = 27) uniform usamplerBuffer rectangles;
 layout(set = 1, binding = 5, scalar) buffer Large { uvec2 large[]; };  // number; view and slices
 
 const int kSmallBox = 64;      // px, either side
@@ -162,10 +165,12 @@ void main() {
   }
   const uint least_key = counts.least_key;
   Tally tally = noTally();
-  const uint first = gl_WorkGroupID.x * 64u * pairs.run + gl_LocalInvocationID.x;
-  for (uint k = 0u; k < pairs.run; ++k) {
-    const uint number = first + 64u * k;
-    if (number < pairs.pairs) splatSmall(number, least_key, tally);
+  const uint rectangle = texelFetch(rectangles, int(gl_WorkGroupID.x)).x;
+  const uint i = (rectangle & 0xFFFFu) + gl_LocalInvocationID.x;
+  const uint first_j = rectangle >> 16;
+  const uint rows = (pairs.points + 63u) / 64u;
+  for (uint j = first_j; j < min(first_j + rows, pairs.points); ++j) {
+    if (i < j) splatSmall(j * (j - 1u) / 2u + i, least_key, tally);
   }
   add(tally);
 }

@@ -37,6 +37,7 @@ vk::Format texelFormat(std::uint32_t binding) {
     case PairData::kTileTexels:
     case PairData::kInView:
     case PairData::kIndexThen:
+    case PairData::kRectangles:
       return vk::Format::eR32Uint;
     case PairData::kThen:
       return vk::Format::eR32G32Sfloat;

@@ -39,6 +39,7 @@ class PairData {
     kIndexThen,    ///< texels
     kOldAreas,     ///< by block, what the area is compared with and what it was last (PairGrowth)
     kNewAreas,
+    kRectangles,  ///< texels: of pairs, what each work group of the splatter goes over
     kBindings,
   };
 

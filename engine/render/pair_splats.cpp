@@ -10,6 +10,7 @@ namespace slamscope::engine {
 
 namespace {
 
+constexpr std::uint32_t kPointsAcross = 64;  // a rectangle, one a lane, as in pairs_splat.comp
 constexpr std::uint32_t kSlices = 8;
 constexpr std::uint32_t kLargeGroups = 32;  // that go over the list of large ones
 constexpr std::size_t kBytesOfAPixel = 2 * sizeof(std::uint64_t);
@@ -54,6 +55,7 @@ PairSplats::PairSplats(const PassSetup& setup, const PairData& data)
       tiles_(setup.core, 0,
              Usage::eStorageBuffer | Usage::eUniformTexelBuffer | Usage::eTransferDst,
              gpu::MemoryUse::kDevice),
+      rectangles_(setup.core, 0, Usage::eUniformTexelBuffer, gpu::MemoryUse::kUpload),
       small_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_FALSE}),
       large_pass_(setup.core, shaderCode("pairs_splat_comp"), splatSets(setup, data), {VK_TRUE}),
       resolve_(setup.core, resolveInfo(setup, data), 0, Picked::Kind::pair) {}
@@ -72,6 +74,28 @@ void PairSplats::update(PairData& data, vk::Extent2D extent) {
   data.bind(PairData::kList, large_);
   for (const auto binding : {PairData::kFaces, PairData::kFaceTexels}) data.bind(binding, faces_);
   for (const auto binding : {PairData::kTiles, PairData::kTileTexels}) data.bind(binding, tiles_);
+  if (data.data().points != points_) sendRectangles(data);
+}
+
+/// What is drawn first hides most of what comes later, which then costs little.
+void PairSplats::sendRectangles(PairData& data) {
+  const std::uint32_t points = points_ = data.data().points;
+  struct Rectangle {
+    std::uint32_t first_i, first_j;
+  };
+  std::vector<Rectangle> all;
+  const std::uint32_t rows = (points + kPointsAcross - 1) / kPointsAcross;
+  for (std::uint32_t j = 0; j < points; j += rows) {
+    for (std::uint32_t i = 0; i < std::min(j + rows, points); i += kPointsAcross) {
+      all.push_back({i, j});
+    }
+  }
+  std::ranges::stable_sort(all, {}, [](const Rectangle& r) { return r.first_i + r.first_j; });
+  rectangles_.reserve(all.size() * sizeof(std::uint32_t));
+  data.bind(PairData::kRectangles, rectangles_);
+  auto texel = rectangles_.as<std::uint32_t>(all.size()).begin();
+  for (const Rectangle& r : all) *texel++ = r.first_i | r.first_j << 16U;
+  rectangle_count_ = static_cast<std::uint32_t>(all.size());
 }
 
 void PairSplats::recordSplats(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frame_set,
@@ -82,7 +106,7 @@ void PairSplats::recordSplats(const vk::raii::CommandBuffer& commands, vk::Descr
   barrier(commands, gpu::copyTarget(), gpu::computed());
   const std::array sets = {frame_set, data.set().handle()};
   small_pass_.bind(commands, sets);
-  commands.dispatch(data.groupCount(), 1, 1);
+  commands.dispatch(rectangle_count_, 1, 1);
   barrier(commands, gpu::computed(), gpu::computed());
   large_pass_.bind(commands, sets);
   commands.dispatch(kLargeGroups, kSlices, 1);

@@ -29,9 +29,13 @@ class PairSplats {
   void record(const FrameContext& context, const PairData& data) const;
 
  private:
-  gpu::Buffer visibility_, large_, faces_, tiles_;
+  /// The pairs (i, j) in rectangles, one a work group, the nearest first.
+  void sendRectangles(PairData& data);
+
+  gpu::Buffer visibility_, large_, faces_, tiles_, rectangles_;
   std::size_t visibility_bytes_ = 0;  // that this frame uses
-  std::uint32_t tile_count_ = 0;      // of a view
+  std::uint32_t points_ = 0, rectangle_count_ = 0;
+  std::uint32_t tile_count_ = 0;  // of a view
   gpu::ComputePipeline small_pass_, large_pass_;
   Looks resolve_;
 };
