@@ -26,6 +26,7 @@ Core::Core(const GpuOptions& options)
   lower(limits_.maxTexelBufferElements, options.most_texels);
   lower(limits_.maxStorageBufferRange, options.most_storage_bytes);
   wide_atomics_ = options.wide_atomics && hasWideAtomics(physical_);
+  read_in_place_ = options.read_in_place && info_.type == "cpu";
   device_ = makeDevice(physical_, {.family = family_,
                                    .present = !options.instance_extensions.empty(),
                                    .wide_atomics = wide_atomics_});

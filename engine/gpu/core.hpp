@@ -30,6 +30,8 @@ class Core {
   void removeMemory(std::size_t bytes) const { memory_bytes_ -= bytes; }
   /// 64-bit atomics in storage buffers may be used.
   [[nodiscard]] bool wideAtomics() const { return wide_atomics_; }
+  /// The device is a processor: images may lie where the host reads them at no cost.
+  [[nodiscard]] bool readInPlace() const { return read_in_place_; }
 
  private:
   MessageLog log_;
@@ -42,6 +44,7 @@ class Core {
   vk::PhysicalDeviceMemoryProperties memory_;
   vk::PhysicalDeviceLimits limits_;
   bool wide_atomics_ = false;
+  bool read_in_place_ = false;
   mutable std::size_t memory_bytes_ = 0;
   vk::raii::Device device_ = nullptr;
   vk::raii::Queue queue_ = nullptr;

@@ -25,6 +25,8 @@ struct GpuOptions {
   std::vector<std::string> instance_extensions = {};
   /// Off: the device is taken for one without 64-bit atomics in storage buffers.
   bool wide_atomics = true;
+  /// Off: pictures come to the host by way of a buffer, as from a device that is no processor.
+  bool read_in_place = true;
   /// Not 0: the device is taken for one whose texel buffers have no more elements than this, and
   /// whose storage buffers have no more bytes.
   std::uint32_t most_texels = 0;

@@ -3,16 +3,11 @@
 
 namespace slamscope::engine::gpu {
 
-vk::ImageAspectFlags DeviceImage::aspect() const {
-  return info_.format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth
-                                                : vk::ImageAspectFlagBits::eColor;
-}
-
 namespace {
 
 /// A processor draws into rows of texels in its own memory just as well as into any other order.
 bool linearWillDo(const Core& core, const ImageInfo& info) {
-  if (core.info().type != "cpu") return false;
+  if (!core.readInPlace()) return false;
   try {
     return core.physical()
                .getImageFormatProperties(info.format, vk::ImageType::e2D, vk::ImageTiling::eLinear,
@@ -24,6 +19,11 @@ bool linearWillDo(const Core& core, const ImageInfo& info) {
 }
 
 }  // namespace
+
+vk::ImageAspectFlags DeviceImage::aspect() const {
+  return info_.format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth
+                                                : vk::ImageAspectFlagBits::eColor;
+}
 
 DeviceImage::DeviceImage(const Core& core, const ImageInfo& info) : info_(info) {
   const bool linear = info.readable && linearWillDo(core, info);

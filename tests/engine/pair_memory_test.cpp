@@ -34,6 +34,21 @@ TEST_F(PairMemory, IsWithinTwiceTheCovariancesAndThePictures) {
   EXPECT_LE(static_cast<double>(ranked - without), 2.0 * kCovarianceBytes + entries);
 }
 
+TEST_F(PairMemory, ReadInPlaceOrByWayOfABufferPicturesAreTheSame) {
+  const View left = overFloor();
+  View right = left;
+  right.T_eye_scene.pretranslate(Eigen::Vector3d(-0.064, 0.0, 0.0));
+  const Scene scene = sceneOf(someMap(20, 0.04));
+  const auto in_place = draw(std::array{left, right}, scene, {});
+  const std::size_t bytes = stats_.device_bytes;
+  useGpu(GpuOptions{.validation = true, .read_in_place = false});
+  const auto by_buffer = draw(std::array{left, right}, scene, {});
+  EXPECT_TRUE(sameBytes(in_place[0], by_buffer[0]));
+  EXPECT_TRUE(sameBytes(in_place[1], by_buffer[1]));
+  EXPECT_FALSE(sameBytes(in_place[0], by_buffer[1]));
+  if (gpu_->device().type == "cpu") EXPECT_GT(stats_.device_bytes, bytes) << "no buffer was used";
+}
+
 TEST_F(PairMemory, DoesNotGrowWithTheFrames) {
   const PairChoice choice{.most = 500, .most_by = MostBy::last_growth};
   (void)deviceBytes(0.010, choice);

@@ -99,10 +99,10 @@ inline Moments momentsOf(const Image& image) {
   return m;
 }
 
-/// Largest difference of a byte, and how many pixels differ at all.
+/// Largest difference of a byte, and how many pixels differ by more than was tolerated.
 struct Difference {
   int most = 0;
-  int pixels = 0;  // that differ by more than was tolerated
+  int pixels = 0;
 };
 
 inline Difference difference(const Image& a, const Image& b, int tolerated = 0) {

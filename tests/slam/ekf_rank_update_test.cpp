@@ -73,7 +73,7 @@ TEST(Cholesky, FactorTimesItsTransposeIsTheMatrix) {
     ASSERT_TRUE(choleskyOf(S, L)) << m;
     const Eigen::MatrixXd lower = L.triangularView<Eigen::Lower>();
     EXPECT_LT((lower * lower.transpose() - S).norm(), 1e-14 * m * S.norm()) << m;
-    EXPECT_GT((L * L.transpose() - 1.001 * S).norm(), 1e-4 * S.norm()) << "must fail";
+    EXPECT_GT((lower * lower.transpose() - 1.001 * S).norm(), 1e-4 * S.norm()) << "must fail";
   }
 }
 
