@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include "apps/lib/json_reports.hpp"
 #include "apps/slamscope/verbs.hpp"
 #include "slam/jsonl.hpp"
 #include "slam/run_reader.hpp"
@@ -21,26 +21,6 @@ std::string_view eventOf(std::size_t index) {
 }
 
 using slam::seconds;
-
-nlohmann::ordered_json asJson(const slam::RunSummary& run) {
-  nlohmann::ordered_json events = nlohmann::ordered_json::object();
-  for (std::size_t k = 0; k < run.events.size(); ++k) {
-    if (run.events[k] > 0) events[std::string(eventOf(k))] = run.events[k];
-  }
-  return {{"records", run.records},
-          {"steps", run.steps},
-          {"events", events},
-          {"features_at_end", run.features_at_end},
-          {"features_at_most", run.features_at_most},
-          {"different_features", run.different_features},
-          {"start_s", seconds(run.first)},
-          {"duration_s", seconds(run.duration())},
-          {"level", run.levelName()},
-          {"truth", run.truth},
-          {"sensor", std::string(slam::sensorName(run.header.sensor))},
-          {"robot", run.header.robot},
-          {"warnings", run.warnings}};
-}
 
 void print(const slam::RunSummary& run) {
   std::printf("records   %llu, %llu steps of time\n", static_cast<unsigned long long>(run.records),
@@ -89,7 +69,7 @@ void addInfo(CLI::App& program) {
     const slam::RunSummary summary = slam::summarize(reader);
     for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
     if (options->json) {
-      std::printf("%s\n", asJson(summary).dump(2).c_str());
+      std::fputs(summaryJson(summary).c_str(), stdout);
     } else {
       print(summary);
     }

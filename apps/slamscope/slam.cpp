@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "apps/lib/json_reports.hpp"
 #include "apps/lib/progress.hpp"
 #include "apps/slamscope/slam_flags.hpp"
 #include "apps/slamscope/verbs.hpp"
@@ -19,35 +19,6 @@
 
 namespace slamscope::apps {
 namespace {
-
-nlohmann::ordered_json asJson(const slam::Score& score, const slam::RecordingRun& run) {
-  const auto number = [](const std::optional<double>& value) {
-    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
-  };
-  const slam::EkfCounters& counters = run.filter().counters();
-  nlohmann::ordered_json json{{"features_found", score.features_found},
-                              {"features_rms_aligned_m", number(score.features_rms_aligned)},
-                              {"path_rms_aligned_m", number(score.path_rms_aligned)},
-                              {"features_rms_m", number(score.features_rms)},
-                              {"path_rms_m", number(score.path_rms)},
-                              {"path_samples", score.path_samples},
-                              {"updates", counters.updates},
-                              {"observed", counters.observed},
-                              {"gated_out", counters.gated_out},
-                              {"features", run.filter().state().featureCount()}};
-  if (const auto map = run.mapCounters()) {
-    json["paired"] = map->paired;
-    json["mispaired"] = run.mispaired();
-    json["ambiguous"] = map->ambiguous;
-    json["crowded"] = map->crowded;
-    json["born"] = map->born;
-    json["confirmed"] = map->confirmed;
-    json["dropped"] = map->dropped;
-    json["duplicates_taken_out"] = map->duplicates;
-    json["duplicates"] = score.duplicates;
-  }
-  return json;
-}
 
 void print(const slam::Score& score, const slam::RecordingRun& run) {
   const auto line = [](const char* what, const std::optional<double>& aligned,
@@ -76,9 +47,9 @@ void print(const slam::Score& score, const slam::RecordingRun& run) {
   line("path", score.path_rms_aligned, score.path_rms);
 }
 
-void writeJson(const std::string& file, const nlohmann::ordered_json& json) {
+void writeText(const std::string& file, const std::string& text) {
   std::ofstream out(file);
-  out << json.dump(2) << '\n';
+  out << text;
   out.close();
   if (!out) throw std::runtime_error(file + ": can't be written");
 }
@@ -112,7 +83,7 @@ void run(const SlamFlags& flags) {
     spdlog::info("{} of {} sightings were outside the gate", counters.gated_out,
                  counters.observed + counters.gated_out);
   }
-  if (!flags.score_json.empty()) writeJson(flags.score_json, asJson(score(), run));
+  if (!flags.score_json.empty()) writeText(flags.score_json, scoreJson(score(), run));
   if (flags.score || (flags.output.empty() && flags.score_json.empty())) {
     print(score(), run);
   }
