@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 namespace slamscope::slam {
@@ -49,6 +50,18 @@ std::optional<std::chrono::nanoseconds> parseSeconds(std::string_view text) {
   const auto ns =
       static_cast<std::int64_t>(std::llroundl(static_cast<long double>(seconds) * 1e9L));
   return std::chrono::nanoseconds(negative ? -ns : ns);
+}
+
+std::string secondsText(std::chrono::nanoseconds time) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const std::int64_t ns = time.count();
+  std::string text = ns < 0 ? "-" : "";
+  text += std::to_string(std::abs(ns / kSecond));
+  if (const std::int64_t rest = std::abs(ns % kSecond); rest != 0) {
+    const std::string digits = std::to_string(kSecond + rest);  // a 1 before the nine places
+    text += '.' + digits.substr(1, digits.find_last_not_of('0'));
+  }
+  return text;
 }
 
 }  // namespace slamscope::slam

@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "slam/decimal_time.hpp"
 #include "slam/jsonl.hpp"
 
 namespace slamscope::slam {
@@ -62,9 +63,9 @@ void checkIds(const Snapshot& last, const Snapshot& next) {
 void RunOrder::take(const SnapshotPtr& next) {
   if (last_) {
     if (next->time < last_->time) {
-      throw std::runtime_error("time: expected at least " + std::to_string(last_->time.count()) +
-                               " ns as in the record before, found " +
-                               std::to_string(next->time.count()) + " ns");
+      throw std::runtime_error("time: expected at least " + secondsText(last_->time) +
+                               " s as in the record before, found " + secondsText(next->time) +
+                               " s");
     }
     checkIds(*last_, *next);
     const bool whole_step = next->event == Event::step || next->event == Event::predict;

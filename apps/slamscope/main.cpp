@@ -17,17 +17,28 @@ namespace {
 
 constexpr int kBadRequest = 2;
 
-/// Everything that could have been meant at this place: verbs, and the options of the chosen one.
-std::vector<std::string> knownWords(const CLI::App& program) {
-  std::vector<std::string> words;
-  const auto verbs = program.get_subcommands();
-  if (verbs.empty()) {
-    for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) {
-      words.push_back(verb->get_name());
-    }
-    return words;
+/// The verb that was asked for, or the verb within a verb (`calibrate tags`), and its full name.
+struct Asked {
+  const CLI::App* verb;
+  std::string name;
+};
+
+Asked askedOf(const CLI::App& program) {
+  Asked asked{.verb = &program, .name = "slamscope"};
+  while (!asked.verb->get_subcommands().empty()) {
+    asked.verb = asked.verb->get_subcommands().front();
+    asked.name += " " + asked.verb->get_name();
   }
-  for (const CLI::Option* option : verbs.front()->get_options()) {
+  return asked;
+}
+
+/// Everything that could have been meant at this place: verbs and options.
+std::vector<std::string> knownWords(const CLI::App& at) {
+  std::vector<std::string> words;
+  for (const CLI::App* verb : at.get_subcommands([](const CLI::App*) { return true; })) {
+    words.push_back(verb->get_name());
+  }
+  for (const CLI::Option* option : at.get_options()) {
     for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
   }
   return words;
@@ -38,18 +49,16 @@ int complain(const CLI::App& program, const CLI::ParseError& error) {
   if (asked_for_help) return program.exit(error);
 
   std::string message = error.what();
-  const CLI::App* at =
-      program.get_subcommands().empty() ? &program : program.get_subcommands().front();
-  std::vector<std::string> unknown = at->remaining();
+  const Asked asked = askedOf(program);
+  std::vector<std::string> unknown = asked.verb->remaining();
   if (unknown.empty()) unknown = program.remaining();
   if (!unknown.empty()) {
     message = "unknown: " + unknown.front();
-    if (const auto meant = nearestWord(unknown.front(), knownWords(program))) {
+    if (const auto meant = nearestWord(unknown.front(), knownWords(*asked.verb))) {
       message += "; did you mean " + *meant + "?";
     }
   }
-  const std::string verb = at == &program ? "" : " " + at->get_name();
-  spdlog::error("{} (slamscope{} --help lists what there is)", message, verb);
+  spdlog::error("{} ({} --help lists what there is)", message, asked.name);
   return kBadRequest;
 }
 

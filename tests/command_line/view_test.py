@@ -35,6 +35,11 @@ class Drawing(program.InAFolder):
 
 
 class BadInput(program.InAFolder):
+    def test_a_verb_within_a_verb_names_itself(self):
+        self.refused("calibrate", "tgas", saying=["did you mean tags?", "slamscope calibrate --help"])
+        self.refused("calibrate", "tags", "--siez", 3,
+                     saying=["did you mean --size?", "slamscope calibrate tags --help"])
+
     def test_a_missing_camera(self):
         self.refused("monitor", "--camera", "none.mp4", "--picture", "p.png", saying="none.mp4")
 

@@ -297,5 +297,12 @@ TEST(DecimalTime, IsTakenAsWritten) {
   }
 }
 
+TEST(DecimalTime, IsWrittenBackExactly) {
+  for (const std::string_view text :
+       {"1248444175.103", "-0.5", "2", "0", "0.000000001", "-3.05", "10.5"}) {
+    EXPECT_EQ(secondsText(*parseSeconds(text)), text);
+  }
+}
+
 }  // namespace
 }  // namespace slamscope::slam

@@ -236,8 +236,7 @@ TEST_F(RunFile, NamesFileLineAndField) {
 
 TEST_F(RunFile, TimeMayStandStillButNotGoBack) {
   EXPECT_EQ(errorOf(kHeader + line(2) + line(1)),
-            "run.jsonl:3: time: expected at least 2000000000 ns as in the record before, found "
-            "1000000000 ns");
+            "run.jsonl:3: time: expected at least 2 s as in the record before, found 1 s");
   EXPECT_EQ(errorOf(kHeader + line(2) + line(2) + line(3) + line(3)), "");
   RunReader reader(path("run.jsonl"));
   countRecords(reader);
