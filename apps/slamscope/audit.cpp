@@ -5,14 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "apps/lib/progress.hpp"
+#include "apps/lib/whole_file.hpp"
 #include "apps/slamscope/verbs.hpp"
 #include "slam/audit/report_html.hpp"
 #include "slam/audit/report_json.hpp"
@@ -56,13 +55,6 @@ constexpr const char* kAuditHelp =
     "Exit status: 0 nothing of --fail-on; 1 something; 2 the run can't be read; 3 too little to "
     "judge.";
 
-void writeFile(const std::string& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file + ": can't be written");
-}
-
 int audit(const AuditFlags& flags) {
   slam::AuditOptions options{.allow = {}, .alpha = flags.alpha};
   for (const std::string& word : flags.allow) options.allow.insert(slam::allowFromName(word));
@@ -86,9 +78,9 @@ int audit(const AuditFlags& flags) {
   }
   for (const std::string& warning : reader.warnings()) spdlog::warn("{}", warning);
   const slam::AuditReport report = judge.report();
-  if (!flags.json.empty()) writeFile(flags.json, slam::reportJson(report));
-  if (!flags.junit.empty()) writeFile(flags.junit, slam::reportJunit(report, flags.run, fail_on));
-  if (!flags.html.empty()) writeFile(flags.html, slam::reportHtml(report, series, flags.run));
+  if (!flags.json.empty()) writeWhole(flags.json, slam::reportJson(report));
+  if (!flags.junit.empty()) writeWhole(flags.junit, slam::reportJunit(report, flags.run, fail_on));
+  if (!flags.html.empty()) writeWhole(flags.html, slam::reportHtml(report, series, flags.run));
   if (!flags.quiet) std::fputs(slam::reportText(report).c_str(), stdout);
   return slam::exitStatus(report, fail_on);
 }

@@ -3,14 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "apps/lib/json_reports.hpp"
 #include "apps/lib/progress.hpp"
+#include "apps/lib/whole_file.hpp"
 #include "apps/slamscope/slam_flags.hpp"
 #include "apps/slamscope/verbs.hpp"
 #include "slam/recorder.hpp"
@@ -47,13 +46,6 @@ void print(const slam::Score& score, const slam::RecordingRun& run) {
   line("path", score.path_rms_aligned, score.path_rms);
 }
 
-void writeText(const std::string& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file + ": can't be written");
-}
-
 void run(const SlamFlags& flags) {
   slam::Recording recording = readRecording(flags);
   const slam::RecordingRunOptions options = runOptions(flags, recording);
@@ -83,7 +75,7 @@ void run(const SlamFlags& flags) {
     spdlog::info("{} of {} sightings were outside the gate", counters.gated_out,
                  counters.observed + counters.gated_out);
   }
-  if (!flags.score_json.empty()) writeText(flags.score_json, scoreJson(score(), run));
+  if (!flags.score_json.empty()) writeWhole(flags.score_json, scoreJson(score(), run));
   if (flags.score || (flags.output.empty() && flags.score_json.empty())) {
     print(score(), run);
   }

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
+
+#include "apps/lib/whole_file.hpp"
 
 namespace slamscope::apps {
 namespace {
@@ -134,12 +134,7 @@ ordered_json MonitorReport::summary() const {
 
 void MonitorReport::write(const std::filesystem::path& file) const {
   const ordered_json report{{"frames", frames_}, {"summary", summary()}};
-  const std::filesystem::path partial = file.string() + ".partial";
-  std::ofstream out(partial);
-  out << report.dump(1) << '\n';
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": can't be written");
-  std::filesystem::rename(partial, file);
+  writeWhole(file, report.dump(1) + '\n');
 }
 
 }  // namespace slamscope::apps
