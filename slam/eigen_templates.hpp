@@ -17,6 +17,8 @@ using Traits = Eigen::internal::gebp_traits<double, double>;
 
 }  // namespace slamscope::eigen_kernels
 
+// The parameters are declarations and types, where parentheses cannot stand.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 // clang-format off
 #define SLAMSCOPE_EIGEN_COMPUTE(declared, Solver, ...)                                             \
   declared template Eigen::Solver& Eigen::Solver::compute(__VA_ARGS__)
@@ -44,6 +46,7 @@ using Traits = Eigen::internal::gebp_traits<double, double>;
   SLAMSCOPE_EIGEN_SOLVE(declared, OnTheLeft, Upper, RowMajor);                                     \
   SLAMSCOPE_EIGEN_SOLVE(declared, OnTheRight, Upper, RowMajor)
 // clang-format on
+// NOLINTEND(bugprone-macro-parentheses)
 
 SLAMSCOPE_EIGEN_TEMPLATES(extern);
 SLAMSCOPE_EIGEN_KERNELS(extern);
