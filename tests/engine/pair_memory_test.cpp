@@ -46,7 +46,9 @@ TEST_F(PairMemory, ReadInPlaceOrByWayOfABufferPicturesAreTheSame) {
   EXPECT_TRUE(sameBytes(in_place[0], by_buffer[0]));
   EXPECT_TRUE(sameBytes(in_place[1], by_buffer[1]));
   EXPECT_FALSE(sameBytes(in_place[0], by_buffer[1]));
-  if (gpu_->device().type == "cpu") EXPECT_GT(stats_.device_bytes, bytes) << "no buffer was used";
+  if (gpu_->device().type == "cpu") {
+    EXPECT_GT(stats_.device_bytes, bytes) << "no buffer was used";
+  }
 }
 
 TEST_F(PairMemory, DoesNotGrowWithTheFrames) {
