@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tracking/robust_descent.hpp"
+#include "tracking/symmetric_solve.hpp"
 
 namespace slamscope::tracking {
 namespace {
@@ -22,12 +23,10 @@ constexpr double kNeverOutlier_px = 0.5;                 // whatever the sigmas 
 Matrix12d informationOf(const HeadFitProblem& problem) {
   Matrix12d information = Matrix12d::Zero();
   if (problem.pose_believed) {
-    const Matrix12d P = problem.prior.covariance.topLeftCorner<12, 12>();
-    information = P.llt().solve(Matrix12d::Identity());
+    information = inverseOfSymmetric(problem.prior.covariance.topLeftCorner<12, 12>());
   } else {
-    using Matrix6 = Eigen::Matrix<double, 6, 6>;
-    const Matrix6 P = problem.prior.covariance.block<6, 6>(6, 6);
-    information.bottomRightCorner<6, 6>() = P.llt().solve(Matrix6::Identity());
+    information.bottomRightCorner<6, 6>() =
+        inverseOfSymmetric(problem.prior.covariance.block<6, 6>(6, 6));
   }
   return information;
 }
@@ -143,7 +142,7 @@ class HeadSolver {
     fit.agrees = excess == 1 && fit.used_count == static_cast<int>(used_.size());
     // The corners' share of the information alone is worth less where they don't fit.
     const Matrix12d H = (linearise(motion, kNoOutliers).H - information_) / excess + information_;
-    const Matrix12d P = H.llt().solve(Matrix12d::Identity());
+    const Matrix12d P = inverseOfSymmetric(H);
     fit.motion = conditioned(problem_.prior, motion, P);
     if (problem_.pose_believed) fit.surprise = surpriseOf(off, P);
     return fit;
@@ -151,11 +150,13 @@ class HeadSolver {
 
   /// Of the posterior pose under the prior: what was learnt has covariance P − P⁺.
   [[nodiscard]] double surpriseOf(const Vector12d& off, const Matrix12d& after) const {
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
     using Matrix6 = Eigen::Matrix<double, 6, 6>;
     const Matrix6 P = problem_.prior.covariance.topLeftCorner<6, 6>();
     const Matrix6 learnt =
         P - after.topLeftCorner<6, 6>() + 1e-6 * P;  // differences of what was inverted
-    return off.head<6>().dot(learnt.llt().solve(off.head<6>()));
+    const Vector6 step = off.head<6>();
+    return step.dot(Vector6(solveSymmetric(learnt, step)));
   }
 
   const HeadFitProblem& problem_;

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "tracking/symmetric_solve.hpp"
 #include "tracking/tag_scene.hpp"
 
 namespace slamscope::tracking {
@@ -120,7 +121,7 @@ Vector12d difference(const HeadMotion& from, const HeadMotion& to) {
 HeadMotion conditioned(const HeadMotion& prior, const HeadMotion& mean, const Matrix12d& P) {
   const Matrix12d P_seen = prior.covariance.topLeftCorner<12, 12>();
   const Eigen::Matrix<double, 12, 6> P_seen_rest = prior.covariance.topRightCorner<12, 6>();
-  const Eigen::Matrix<double, 6, 12> G = P_seen.llt().solve(P_seen_rest).transpose();
+  const Eigen::Matrix<double, 6, 12> G = solveSymmetric(P_seen, P_seen_rest).transpose();
   const Eigen::Matrix<double, 6, 1> rest = G * difference(prior, mean);
   HeadMotion result = mean;
   result.alpha_head = prior.alpha_head + rest.head<3>();

@@ -11,6 +11,7 @@
 
 #include "tracking/median.hpp"
 #include "tracking/registration_error.hpp"
+#include "tracking/symmetric_solve.hpp"
 
 namespace slamscope::tracking {
 namespace {
@@ -47,7 +48,7 @@ void applyCameraPose(const CameraPose& pose, SceneProblem& problem, ScenePose& s
   if (!(pose.sigma_position_m > 0 && pose.sigma_rotation_rad > 0)) return;
   problem.solve_camera = true;
   problem.prior_T_camera_world = pose.T_camera_world;
-  problem.prior_information = cameraCovariance(pose).inverse();
+  problem.prior_information = inverseOfSymmetric(cameraCovariance(pose));
 }
 
 /// The camera's pose by the floor's tags, whose corners join the problem. False where none fits.
@@ -178,7 +179,7 @@ bool MapAverage::add(const Isometry3d& T_world_map, const Eigen::Matrix3d& covar
   const double yaw = first_yaw_ + std::remainder(turned - first_yaw_, 2 * std::numbers::pi);
   const Vector3d place(T_world_map.translation().x(), T_world_map.translation().y(), yaw);
   if (frames_ > 0) {
-    const Vector3d off = place - information_.ldlt().solve(weighted_);
+    const Vector3d off = place - Vector3d(solveSymmetric(information_, weighted_));
     if (off.head<2>().norm() > kMoved_m || std::abs(off.z()) > kMoved_rad) return false;
   }
   const Eigen::Matrix3d information = (R * covariance_map_axes * R.transpose()).inverse();
@@ -189,7 +190,7 @@ bool MapAverage::add(const Isometry3d& T_world_map, const Eigen::Matrix3d& covar
 }
 
 Isometry3d MapAverage::pose() const {
-  const Vector3d place = information_.ldlt().solve(weighted_);
+  const Vector3d place = solveSymmetric(information_, weighted_);
   Isometry3d T(Eigen::Translation3d(place.x(), place.y(), 0));
   T.linear() = Eigen::AngleAxisd(place.z(), Vector3d::UnitZ()).toRotationMatrix();
   return T;

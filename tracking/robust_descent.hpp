@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <optional>
 #include <vector>
+
+#include "tracking/symmetric_solve.hpp"
 
 // Least squares that outliers don't lead astray, over whatever state: what the fits of a scene and
 // of a head have in common.
@@ -43,7 +45,7 @@ template <typename State, typename Linearise, typename Move>
   for (int i = 0; i < kMostSteps; ++i) {
     auto H = at.H;
     H.diagonal() *= 1 + damping;
-    const auto step = H.ldlt().solve(at.g).eval();
+    const decltype(at.g) step = solveSymmetric(H, at.g);
     if (!step.allFinite()) return std::nullopt;
     const State candidate = move(state, step);
     const auto next = linearise(candidate);

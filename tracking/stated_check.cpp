@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tracking/median.hpp"
+#include "tracking/symmetric_solve.hpp"
 #include "tracking/tag_scene.hpp"
 
 namespace slamscope::tracking {
@@ -43,9 +44,9 @@ struct Explanation {
 
 template <int first, int size>
 Explanation explain(const Eigen::Matrix4d& H, const Eigen::Vector4d& g, double chi2, double dof) {
-  const Eigen::Matrix<double, size, size> A = H.template block<size, size>(first, first);
   const Eigen::Matrix<double, size, 1> b = g.template segment<size>(first);
-  const Eigen::Matrix<double, size, 1> x = A.inverse() * b;
+  const Eigen::Matrix<double, size, 1> x =
+      solveSymmetric(H.template block<size, size>(first, first), b);
   Explanation result;
   result.value.template head<size>() = x;
   result.explained = b.dot(x);
@@ -127,10 +128,11 @@ void StatedCheck::learn(const EyeCamera& eye, const TagLayout& layout,
         1 / (sight.sigma_px * sight.sigma_px) / (1 + std::pow(distances[i] / usual, 2));
     sums.add(eye, *layout.find(sight.tag), sight, head, weight);
   }
-  const Eigen::LLT<Matrix6d> solver(sums.A);
-  H_ = kForget * H_ + sums.C - sums.B.transpose() * solver.solve(sums.B);
-  g_ = kForget * g_ + sums.c - sums.B.transpose() * solver.solve(sums.a);
-  chi2_ = kForget * chi2_ + sums.chi2 - sums.a.dot(solver.solve(sums.a));
+  const Matrix6d P = inverseOfSymmetric(sums.A);
+  const Eigen::Matrix<double, 4, 6> B_P = sums.B.transpose() * P;
+  H_ = kForget * H_ + sums.C - B_P * sums.B;
+  g_ = kForget * g_ + sums.c - B_P * sums.a;
+  chi2_ = kForget * chi2_ + sums.chi2 - sums.a.dot(P * sums.a);
   dof_ = kForget * dof_ + 2 * sums.count - 6;
   pictures_ = kForget * pictures_ + 1;
 }
@@ -152,7 +154,7 @@ std::optional<std::string> StatedCheck::unexplained() const {
 
 std::optional<std::string> StatedCheck::explained() const {
   if (pictures_ < kLeastPlaces) return std::nullopt;
-  const double all = g_.dot(H_.llt().solve(g_));
+  const double all = g_.dot(Eigen::Vector4d(solveSymmetric(H_, g_)));
   const Explanation focal = explain<0, 1>(H_, g_, chi2_, dof_);
   const Explanation point = explain<1, 2>(H_, g_, chi2_, dof_);
   const Explanation size = explain<3, 1>(H_, g_, chi2_, dof_);

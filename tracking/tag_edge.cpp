@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tracking/median.hpp"
+#include "tracking/symmetric_solve.hpp"
 
 namespace slamscope::tracking {
 namespace {
@@ -194,7 +195,7 @@ std::optional<EdgeFit> fitEdge(const ImageView& grey, const Chord& chord, const 
     Matrix7d damped = at.H;
     damped.diagonal() *= 1 + 1e-6;
     damped(6, 6) *= 1.01;
-    Vector7d step = damped.ldlt().solve(at.g);
+    Vector7d step = solveSymmetric(damped, at.g);
     if (!step.allFinite()) return std::nullopt;
     const double most = std::max(std::abs(step[0]) / 0.7, std::abs(step[6]) / 0.4);
     if (most > 1) step /= most;
@@ -214,8 +215,8 @@ std::optional<EdgeFit> fitEdge(const ImageView& grey, const Chord& chord, const 
   fit.half = chord.half;
   // Blur, symmetric about the edge, tells nothing of its place; without any it can't be told
   // itself.
-  const Eigen::Matrix<double, 6, 6> H = at.H.topLeftCorner<6, 6>();
-  fit.covariance = at.noise * at.noise * H.inverse().topLeftCorner<2, 2>();
+  const UpTo12 P = inverseOfSymmetric(at.H.topLeftCorner<6, 6>());
+  fit.covariance = at.noise * at.noise * P.topLeftCorner<2, 2>();
   return fit;
 }
 

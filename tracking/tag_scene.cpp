@@ -7,12 +7,14 @@
 #include <limits>
 
 #include "tracking/robust_descent.hpp"
+#include "tracking/symmetric_solve.hpp"
 
 namespace slamscope::tracking {
 namespace {
 
 using Eigen::Isometry3d, Eigen::Vector2d, Eigen::Vector3d;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
 using Matrix29d = Eigen::Matrix<double, 2, 9>;
 
 constexpr double kRoughly = 1e-3, kExactly = 1e-10;  // change of cost at rest
@@ -161,8 +163,8 @@ class Solver {
     fit.residual_px = std::sqrt(px2 / count);
     const double dof = std::max(1, freedom(count));
     const double excess = chi2 / dof > 1 + 3 * std::sqrt(2 / dof) ? chi2 / dof : 1;
-    fit.covariance =
-        excess * (free_ * free_.transpose()).cwiseProduct(linearise(pose, kNoOutliers).H.inverse());
+    const Matrix9d P = inverseOfSymmetric(linearise(pose, kNoOutliers).H);
+    fit.covariance = excess * (free_.asDiagonal() * P * free_.asDiagonal());
     return fit;
   }
 
