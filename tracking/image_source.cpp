@@ -6,11 +6,11 @@
 #include <cctype>
 #include <functional>
 #include <optional>
-#include <regex>
 #include <stdexcept>
 
 #include "tracking/codecs.hpp"
 #include "tracking/frame_source.hpp"
+#include "tracking/numbered_name.hpp"
 #include "tracking/stamps.hpp"
 
 namespace slamscope::tracking {
@@ -102,22 +102,17 @@ std::unique_ptr<FrameSource> openImageDirectory(const fs::path& directory, doubl
 
 std::unique_ptr<FrameSource> openImagePattern(const std::string& pattern, double fps) {
   const fs::path path(pattern);
-  const std::string name = path.filename().string();
-  static const std::regex field(R"(^([^%]*)%(0?)([0-9]*)d([^%]*)$)");
-  std::smatch parts;
-  if (path.parent_path().string().find('%') != std::string::npos ||
-      !std::regex_match(name, parts, field))
+  const auto name = numberedName(path.filename().string());
+  if (!name || path.parent_path().string().find('%') != std::string::npos)
     throw std::runtime_error(
         pattern + ": expected one number field in the file's name, as in frame-%05d.png");
-  const std::string before = parts[1], after = parts[4];
-  const std::size_t digits = parts[3].length() > 0 ? std::stoul(parts[3]) : 1;
   const fs::path directory = path.parent_path().empty() ? fs::path(".") : path.parent_path();
   if (!fs::is_directory(directory)) throw std::runtime_error(pattern + ": no such directory");
-  return open(directory, fps, pattern, [=](const std::string& file) {
-    if (file.size() < before.size() + digits + after.size()) return false;
-    if (!file.starts_with(before) || !file.ends_with(after)) return false;
-    const std::string number =
-        file.substr(before.size(), file.size() - before.size() - after.size());
+  return open(directory, fps, pattern, [&name = *name](const std::string& file) {
+    const std::size_t around = name.before.size() + name.after.size();
+    if (file.size() < around + name.digits) return false;
+    if (!file.starts_with(name.before) || !file.ends_with(name.after)) return false;
+    const std::string number = file.substr(name.before.size(), file.size() - around);
     return std::all_of(number.begin(), number.end(),
                        [](unsigned char c) { return std::isdigit(c) != 0; });
   });

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "apps/slamscope/monitor_flags.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <regex>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 namespace slamscope::apps {
 namespace {
@@ -21,6 +24,22 @@ slam::Axis axisFromName(const std::string& name) {
   if (name == "eigenvalue") return slam::Axis::eigenvalue;
   if (name == "log") return slam::Axis::log;
   return slam::Axis::sigma;
+}
+
+/// Two numbers of two to five figures, as in "1280x720".
+void readSize(const std::string& flag, const std::string& text, int& width, int& height) {
+  constexpr int kLeast = 10, kMost = 99999;
+  const char* const end = text.data() + text.size();
+  const auto [middle, no_width] = std::from_chars(text.data(), end, width);
+  bool good = no_width == std::errc() && middle != end && *middle == 'x';
+  if (good) {
+    const auto [last, no_height] = std::from_chars(middle + 1, end, height);
+    good = no_height == std::errc() && last == end && std::min(width, height) >= kLeast &&
+           std::max(width, height) <= kMost;
+  }
+  if (!good) {
+    throw std::invalid_argument(flag + ": expected WxH, for example 1280x720, got " + text);
+  }
 }
 
 void addCameraFlags(CLI::App& verb, MonitorFlags& flags) {
@@ -157,14 +176,10 @@ void addCaptureFlags(CLI::App& verb, MonitorFlags& flags, const std::string& gro
   verb.add_option("--fps", rest.fps, "frame rate of pictures without stamps, and of a lab")
       ->check(CLI::Range(0.1, 1000.0))
       ->group(group);
-  verb.add_option(
+  verb.add_option_function<std::string>(
           "--capture-size",
-          [&rest](const CLI::results_t& words) {
-            const char separator = 'x';
-            const auto at = words.front().find(separator);
-            if (at == std::string::npos) return false;
-            return CLI::detail::lexical_cast(words.front().substr(0, at), rest.v4l2.width) &&
-                   CLI::detail::lexical_cast(words.front().substr(at + 1), rest.v4l2.height);
+          [&rest](const std::string& text) {
+            readSize("--capture-size", text, rest.v4l2.width, rest.v4l2.height);
           },
           "WxH asked of a device")
       ->group(group);
@@ -205,14 +220,7 @@ MonitorOptions MonitorFlags::options() const {
   if (options.mode == slam::PairMode::selected && options.selected.empty()) {
     throw std::invalid_argument("--mode selected needs --select ID,ID,…");
   }
-  if (!size.empty()) {
-    std::smatch parts;
-    if (!std::regex_match(size, parts, std::regex(R"((\d{2,5})x(\d{2,5}))"))) {
-      throw std::invalid_argument("--size: expected WxH, for example 1280x720, got " + size);
-    }
-    options.width = std::stoi(parts[1]);
-    options.height = std::stoi(parts[2]);
-  }
+  if (!size.empty()) readSize("--size", size, options.width, options.height);
   return options;
 }
 

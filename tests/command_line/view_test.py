@@ -71,6 +71,15 @@ class BadInput(program.InAFolder):
     def test_a_device_that_is_not_there(self):
         self.refused("monitor", "--picture", "p.png", "--device", "Voodoo 3", saying="Voodoo 3")
 
+    def test_sizes_that_are_none(self):
+        for flag in ("--size", "--capture-size"):
+            for text in ("640", "640x", "x480", "640x480a", "9x480", "640x100000"):
+                self.refused("monitor", flag, text, "--picture", "p.png", saying=[flag, "1280x720", text])
+
+    def test_output_without_a_number(self):
+        for name in ("p.png", "p-%s.png", "p-%d-%d.png", "p-%d.jpg"):
+            self.refused("monitor", "--frames", 1, "--output", name, saying=[name, "NAME-%05d.png"])
+
     def test_a_window_without_a_display(self):
         self.refused("monitor", saying="display", env=NO_DISPLAY)
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
-#include <regex>
 #include <stdexcept>
 #include <utility>
 
 #include "tracking/codecs.hpp"
+#include "tracking/numbered_name.hpp"
 
 namespace slamscope::apps {
 namespace {
@@ -40,24 +40,16 @@ fs::path partialFor(const fs::path& target) {
   return target.parent_path() / name;
 }
 
-/// `name-%05d.png` split at its number.
 class NumberedPngs : public PictureOutput {
  public:
-  NumberedPngs(std::string before, int digits, std::string after)
-      : before_(std::move(before)), after_(std::move(after)), digits_(digits) {}
+  explicit NumberedPngs(tracking::NumberedName name) : name_(std::move(name)) {}
 
-  void write(const engine::Image& picture) override {
-    std::string number = std::to_string(next_++);
-    const auto digits = static_cast<std::size_t>(digits_);
-    if (number.size() < digits) number.insert(0, digits - number.size(), '0');
-    writePicture(before_ + number + after_, picture);
-  }
+  void write(const engine::Image& picture) override { writePicture(name_.of(next_++), picture); }
   void finish() override {}
 
  private:
-  std::string before_, after_;
-  int digits_;
-  long next_ = 0;
+  tracking::NumberedName name_;
+  std::size_t next_ = 0;
 };
 
 class Video : public PictureOutput {
@@ -113,11 +105,9 @@ std::unique_ptr<PictureOutput> openPictureOutput(const fs::path& target, double 
   requireFolder(target);
   const std::string name = target.string();
   if (target.extension() == ".mp4") return std::make_unique<Video>(target, frames_per_second);
-  static const std::regex kNumbered(R"(([^%]*)%0?(\d*)d([^%]*\.png))");
-  std::smatch parts;
-  if (std::regex_match(name, parts, kNumbered)) {
-    const int digits = parts[2].length() > 0 ? std::stoi(parts[2]) : 1;
-    return std::make_unique<NumberedPngs>(parts[1], std::clamp(digits, 1, 12), parts[3]);
+  const auto numbered = tracking::numberedName(name);
+  if (numbered && numbered->after.ends_with(".png")) {
+    return std::make_unique<NumberedPngs>(*numbered);
   }
   throw std::runtime_error(
       name + ": --output takes NAME.mp4 or NAME-%05d.png; for the last picture alone --picture");
