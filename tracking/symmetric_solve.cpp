@@ -2,10 +2,15 @@
 #include "tracking/symmetric_solve.hpp"
 
 #include <Eigen/Cholesky>
+#include <limits>
 
 namespace slamscope::tracking {
 
 UpTo12 solveSymmetric(const UpTo12& A, const UpTo12& B) {
+  // Eigen's LDLT takes what is no number for zero.
+  if (!A.allFinite()) {
+    return UpTo12::Constant(B.rows(), B.cols(), std::numeric_limits<double>::quiet_NaN());
+  }
   return A.ldlt().solve(B);
 }
 
