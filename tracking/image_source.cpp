@@ -108,14 +108,7 @@ std::unique_ptr<FrameSource> openImagePattern(const std::string& pattern, double
         pattern + ": expected one number field in the file's name, as in frame-%05d.png");
   const fs::path directory = path.parent_path().empty() ? fs::path(".") : path.parent_path();
   if (!fs::is_directory(directory)) throw std::runtime_error(pattern + ": no such directory");
-  return open(directory, fps, pattern, [&name = *name](const std::string& file) {
-    const std::size_t around = name.before.size() + name.after.size();
-    if (file.size() < around + name.digits) return false;
-    if (!file.starts_with(name.before) || !file.ends_with(name.after)) return false;
-    const std::string number = file.substr(name.before.size(), file.size() - around);
-    return std::all_of(number.begin(), number.end(),
-                       [](unsigned char c) { return std::isdigit(c) != 0; });
-  });
+  return open(directory, fps, pattern, [&](const std::string& file) { return name->fits(file); });
 }
 
 std::unique_ptr<FrameSource> openImage(const fs::path& file) {

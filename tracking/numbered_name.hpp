@@ -14,6 +14,8 @@ struct NumberedName {
   std::size_t digits = 1;  ///< at least; shorter numbers begin with zeros
 
   [[nodiscard]] std::string of(std::size_t number) const;
+  /// Whether a name is one of them, of whatever number.
+  [[nodiscard]] bool fits(std::string_view name) const;
 };
 
 /// From a name or path with one %d or %0Nd (N to 12) and no other %, else nothing.

@@ -31,13 +31,10 @@ void readSize(const std::string& flag, const std::string& text, int& width, int&
   constexpr int kLeast = 10, kMost = 99999;
   const char* const end = text.data() + text.size();
   const auto [middle, no_width] = std::from_chars(text.data(), end, width);
-  bool good = no_width == std::errc() && middle != end && *middle == 'x';
-  if (good) {
-    const auto [last, no_height] = std::from_chars(middle + 1, end, height);
-    good = no_height == std::errc() && last == end && std::min(width, height) >= kLeast &&
-           std::max(width, height) <= kMost;
-  }
-  if (!good) {
+  const bool parted = middle != end && *middle == 'x';
+  const auto [last, no_height] = std::from_chars(parted ? middle + 1 : end, end, height);
+  if (no_width != std::errc() || no_height != std::errc() || last != end ||
+      std::min(width, height) < kLeast || std::max(width, height) > kMost) {
     throw std::invalid_argument(flag + ": expected WxH, for example 1280x720, got " + text);
   }
 }
